@@ -1,0 +1,30 @@
+include(GoogleTest)
+
+# The flags of our own code.
+function(cupola_own_code target)
+  target_include_directories(${target} PUBLIC "${CMAKE_SOURCE_DIR}")
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
+  if(CUPOLA_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(CUPOLA_SANITIZE)
+    # OpenFOAM itself trips over the vptr and null checks.
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize=vptr,null -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# cupola_library(NAME sources...): a static library of ours.
+function(cupola_library target)
+  add_library(${target} STATIC ${ARGN})
+  cupola_own_code(${target})
+endfunction()
+
+# cupola_test(NAME LABEL label SOURCES ... LIBRARIES ...): a GoogleTest program on one process, its tests found by ctest.
+function(cupola_test name)
+  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  cupola_own_code(${name})
+  target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name} TEST_PREFIX "${name}." PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,11 @@
+# Imported target udunits2::udunits2.
+find_path(UDUNITS2_INCLUDE_DIR udunits2.h)
+find_library(UDUNITS2_LIBRARY udunits2)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(udunits2 REQUIRED_VARS UDUNITS2_LIBRARY UDUNITS2_INCLUDE_DIR)
+mark_as_advanced(UDUNITS2_LIBRARY UDUNITS2_INCLUDE_DIR)
+if(udunits2_FOUND AND NOT TARGET udunits2::udunits2)
+  add_library(udunits2::udunits2 SHARED IMPORTED)
+  set_target_properties(udunits2::udunits2 PROPERTIES IMPORTED_LOCATION "${UDUNITS2_LIBRARY}")
+  target_include_directories(udunits2::udunits2 SYSTEM INTERFACE "${UDUNITS2_INCLUDE_DIR}")
+endif()

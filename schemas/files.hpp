@@ -1,0 +1,69 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "schemas/failure.hpp"
+
+/// The small files of a task folder and how files are written: to a temporary name, synced, then renamed.
+namespace cupola {
+
+/// Content hash of a file or text: "xxh3:" and 32 hexadecimal digits (XXH3, 128 bit).
+std::string hash_file(const std::filesystem::path& file);
+std::string hash_text(const std::string& text);
+
+std::string read_text(const std::filesystem::path& file);
+void write_text_atomically(const std::filesystem::path& file, const std::string& text);
+nlohmann::json read_json(const std::filesystem::path& file);
+void write_json_atomically(const std::filesystem::path& file, const nlohmann::json& value);
+/// Renames an already written temporary file to its place, syncing file and folder.
+void publish(const std::filesystem::path& temporary, const std::filesystem::path& file);
+
+/// `progress.json`
+struct Progress {
+  long step = 0;
+  double process_seconds = 0;       ///< since the task's begin
+  double process_seconds_total = 0; ///< the task's expected end
+  double wall_seconds = 0;          ///< spent in this task over all its starts
+  double rate = 0;                  ///< process seconds per wall second, recent
+  std::string phase;                ///< `settling`, `relaxing`, `averaging`, `marching`, …
+  std::map<std::string, double> monitored;  ///< SI, e.g. `mean_solid_temperature`, `parcels`
+};
+void write_progress(const std::filesystem::path& folder, const Progress& progress);
+/// Absent or unreadable: none (the writer may not have begun).
+std::optional<Progress> read_progress(const std::filesystem::path& folder);
+
+/// `history.jsonl`: one JSON object a line; each has "step".
+void append_history(const std::filesystem::path& folder, const nlohmann::json& line);
+/// Drops lines whose "step" is greater than `last_step` (a resume from that step's checkpoint) and torn last lines.
+void cut_history(const std::filesystem::path& folder, long last_step);
+std::vector<nlohmann::json> read_history(const std::filesystem::path& folder);
+
+/// `failure.json`
+void write_failure(const std::filesystem::path& folder, const Failure& failure);
+std::optional<nlohmann::json> read_failure(const std::filesystem::path& folder);
+
+/// `manifest.json`, written last: size and hash of every file of the folder except live logs and checkpoints.
+void write_manifest(const std::filesystem::path& folder);
+bool has_manifest(const std::filesystem::path& folder);
+/// Checks sizes and hashes. @throws Failure input_output naming the first file that differs
+void verify_manifest(const std::filesystem::path& folder);
+
+/// An exclusive advisory lock on a folder (`lock` in it: host, pid, since), held for the object's life.
+class FolderLock {
+ public:
+  /// @throws Failure held (says who)
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  FolderLock(FolderLock&&) = delete;
+  FolderLock& operator=(FolderLock&&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+}  // namespace cupola
