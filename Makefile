@@ -1,10 +1,13 @@
 # Thin wrappers over CMake and CTest.  `make run` and `make test` do everything on a fresh Debian 12 machine.
-BUILD := build
-JOBS  ?= $(shell nproc)
+BUILD   := build
+JOBS    ?= $(shell nproc)
 RUN_DIR ?= runs/slot_quick
-CTEST := ctest --test-dir $(BUILD) --output-on-failure
+# Programs of Open MPI refuse to run as root unless told so; in a container root is all there is.
+ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
+CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
 
-.PHONY: run test test-long build setup bench clean format-check tidy sanitize
+.PHONY: run test test-long setup build bench sanitize tidy tidy-all format-check clean
+
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
 	$(BUILD)/bin/cupola run cases/slot_quick/campaign.yaml --run-dir $(RUN_DIR)
@@ -12,30 +15,40 @@ run: build
 
 test: build
 	@echo "== running the tests"
-	$(CTEST) -LE long
+	$(CTEST) --test-dir $(BUILD) -LE long
 
 test-long: build
-	$(CTEST)
-
-build: setup
-	@echo "== building"
-	cmake --build $(BUILD) -j $(JOBS)
+	@echo "== running all tests, the long ones too"
+	$(CTEST) --test-dir $(BUILD)
 
 setup:
-	@echo "== packages, OpenFOAM headers, configuration"
+	@echo "== packages, OpenFOAM headers"
 	@tools/install_packages.sh packages.txt
 	@tools/fetch_openfoam_headers.sh .cache
+
+build: setup
+	@echo "== configuring and building"
 	@[ -f $(BUILD)/build.ninja ] || cmake -S . -B $(BUILD) -G Ninja
+	cmake --build $(BUILD) -j $(JOBS)
 
 bench: build
-	@for program in $(BUILD)/bin/bench_*; do [ -x "$$program" ] && echo "== $$program" && "$$program" || true; done
+	@tools/run_benchmarks.sh $(BUILD)
 
+# The address and undefined-behaviour sanitizers, in a tree of their own, on the unit and workflow tests.
 sanitize: setup
-	cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCUPOLA_SANITIZE=ON
+	@echo "== sanitizers"
+	@[ -f build-sanitize/build.ninja ] || cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCUPOLA_SANITIZE=ON
 	cmake --build build-sanitize -j $(JOBS)
+	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE 'long|browser'
+
+tidy: build
+	@tools/tidy.sh $(BUILD) schemas physics/closures physics/plan physics/motion orchestrator
+
+tidy-all: build
+	@tools/tidy.sh $(BUILD) schemas physics stage_dem stage_tracer orchestrator
 
 format-check:
-	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
+	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror && echo "format: fine"
 
 clean:
-	rm -rf build build-*
+	rm -rf build build-sanitize
