@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace cupola {
+
+/// The two checkpoints of a task folder, `checkpoint-A.h5` and `checkpoint-B.h5`, written in turns. `checkpoint-X.hash`
+/// beside each (one line: content hash and step) is renamed into place after it, so that a checkpoint without its right
+/// hash does not count.
+class CheckpointFiles {
+ public:
+  explicit CheckpointFiles(std::filesystem::path task_folder) : folder_(std::move(task_folder)) {}
+
+  struct Found {
+    std::filesystem::path file;
+    long step = 0;
+  };
+  /// The whole checkpoint of the latest step, or none.
+  [[nodiscard]] std::optional<Found> latest() const;
+
+  /// Lets `write` make the file that is not the latest, then seals it.
+  /// @param write gets the path of the file to make, atomically (HdfWriter)
+  void write(long step, const std::function<void(const std::filesystem::path&)>& write) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace cupola
