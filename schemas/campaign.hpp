@@ -22,8 +22,16 @@ struct Geometry {
   std::vector<std::array<double, 2>> profile;      ///< (z, half width) in m, z rising; a box has two entries of one half width
 };
 
+/// Exact cell counts, where the wanted edge length is not enough.
+struct MeshCells {
+  int half_width = 0;         ///< from x = 0 to the wall
+  int depth = 0;              ///< along y
+  std::vector<int> heights;   ///< one a section of the profile, from the bottom up
+};
+
 struct MeshSettings {
-  double cell = 0;  ///< m, wanted cell edge
+  double cell = 0;  ///< m, wanted cell edge; with `cells` given the mean cell height, for criteria in cells
+  std::optional<MeshCells> cells;  ///< given: these counts, and `cell` does not shape the mesh
 };
 
 /// A gas inlet: an opening in a side wall (a tuyere, centred at y = 0 and at `z`), or the whole bottom.
@@ -38,7 +46,7 @@ struct Inlet {
 };
 
 struct Gas {
-  std::string species;          ///< name, for the report
+  std::string species;          ///< a preset (`air`, `nitrogen`, `blast`) or a name for the report
   double molar_mass = 0;        ///< kg/mol
   double heat_capacity = 0;     ///< J/kg/K, at constant pressure
   double viscosity = 0;         ///< Pa s
@@ -122,6 +130,7 @@ struct Charging {
   double stock_line = 0;       ///< m; a layer is charged when the bed's surface falls below it
   std::vector<Layer> layers;   ///< the recipe, repeated
   double temperature = 293;    ///< K of the charge
+  double hopper_height = 0;    ///< m, DEM domain above the mesh top; default: thickest layer (mass/density/0.55) plus 0.5 m
 };
 
 struct Raceway {
@@ -196,6 +205,11 @@ struct Campaign {
   [[nodiscard]] std::size_t species_index(const std::string& wanted) const;
   /// Half width of the profile at height z (the end values beyond the ends), m.
   [[nodiscard]] double half_width(double z) const;
+  /// Lowest and highest z of the profile, m: the ends of the mesh.
+  [[nodiscard]] double bottom() const { return scene.geometry.profile.front()[0]; }
+  [[nodiscard]] double top() const { return scene.geometry.profile.back()[0]; }
+  /// Top of the charging hopper, where the DEM domain ends, m.
+  [[nodiscard]] double hopper_top() const { return top() + charging.hopper_height; }
 };
 
 }  // namespace cupola
