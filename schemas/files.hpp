@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "schemas/failure.hpp"
 
-/// The small files of a task folder and how files are written: to a temporary name, synced, then renamed.
+/// The small files of a task folder and how files are written: to a temporary name, synced, then renamed.  All of these
+/// throw Failure input_output where the file system refuses, naming the file and its reason.
 namespace cupola {
 
 /// Content hash of a file or text: "xxh3:" and 32 hexadecimal digits (XXH3, 128 bit).
@@ -18,17 +20,20 @@ std::string read_text(const std::filesystem::path& file);
 void write_text_atomically(const std::filesystem::path& file, const std::string& text);
 nlohmann::json read_json(const std::filesystem::path& file);
 void write_json_atomically(const std::filesystem::path& file, const nlohmann::json& value);
+/// Where a file is written before it is published: `<file>.part` in the same folder.  What a killed program leaves
+/// there is overwritten by the next one and counts for nothing.
+std::filesystem::path temporary_beside(const std::filesystem::path& file);
 /// Renames an already written temporary file to its place, syncing file and folder.
 void publish(const std::filesystem::path& temporary, const std::filesystem::path& file);
 
 /// `progress.json`
 struct Progress {
   long step = 0;
-  double process_seconds = 0;       ///< since the task's begin
-  double process_seconds_total = 0; ///< the task's expected end
-  double wall_seconds = 0;          ///< spent in this task over all its starts
-  double rate = 0;                  ///< process seconds per wall second, recent
-  std::string phase;                ///< `settling`, `relaxing`, `averaging`, `marching`, …
+  double process_seconds = 0;               ///< since the task's begin
+  double process_seconds_total = 0;         ///< the task's expected end
+  double wall_seconds = 0;                  ///< spent in this task over all its starts
+  double rate = 0;                          ///< process seconds per wall second, recent
+  std::string phase;                        ///< `settling`, `relaxing`, `averaging`, `marching`, …
   std::map<std::string, double> monitored;  ///< SI, e.g. `mean_solid_temperature`, `parcels`
 };
 void write_progress(const std::filesystem::path& folder, const Progress& progress);
@@ -37,21 +42,26 @@ std::optional<Progress> read_progress(const std::filesystem::path& folder);
 
 /// `history.jsonl`: one JSON object a line; each has "step".
 void append_history(const std::filesystem::path& folder, const nlohmann::json& line);
-/// Drops lines whose "step" is greater than `last_step` (a resume from that step's checkpoint) and torn last lines.
+/// Drops lines whose "step" is greater than `last_step` (a resume from that step's checkpoint) and lines torn by a
+/// kill.  To be called before a resumed stage appends; -1 drops all.
 void cut_history(const std::filesystem::path& folder, long last_step);
+/// Whole lines, in order; torn ones are left out.  Empty where there is no history yet.
 std::vector<nlohmann::json> read_history(const std::filesystem::path& folder);
 
-/// `failure.json`
+/// `failure.json`: `code`, `sentence`, `where{}`, `advice{}`
 void write_failure(const std::filesystem::path& folder, const Failure& failure);
 std::optional<nlohmann::json> read_failure(const std::filesystem::path& folder);
 
-/// `manifest.json`, written last: size and hash of every file of the folder except live logs and checkpoints.
+/// `manifest.json`, written last: size and hash of every file of the folder, except what goes on changing or is of no
+/// use afterwards: `lock`, `progress.json`, `checkpoint-*`, `*.log`, `log.*`, `*.part`.  Of `foam/` only `mesh.hdf` and
+/// `wall.stl` are in it: the rest (OpenFOAM's case, decomposed) follows from `task.yaml` and is large.
 void write_manifest(const std::filesystem::path& folder);
 bool has_manifest(const std::filesystem::path& folder);
 /// Checks sizes and hashes. @throws Failure input_output naming the first file that differs
 void verify_manifest(const std::filesystem::path& folder);
 
-/// An exclusive advisory lock on a folder (`lock` in it: host, pid, since), held for the object's life.
+/// An exclusive advisory lock on a folder (`lock` in it: host, pid, since), held for the object's life.  The kernel
+/// releases it when the process ends in whatever way; programs it starts do not inherit it.
 class FolderLock {
  public:
   /// @throws Failure held (says who)
@@ -61,6 +71,9 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
   FolderLock(FolderLock&&) = delete;
   FolderLock& operator=(FolderLock&&) = delete;
+
+  /// Who holds the folder now (`pid 123 on host since …`); none where nobody does.  Changes nothing.
+  static std::optional<std::string> holder(const std::filesystem::path& folder);
 
  private:
   int descriptor_ = -1;

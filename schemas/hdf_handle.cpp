@@ -1,0 +1,55 @@
+#include "schemas/hdf_handle.hpp"
+
+namespace cupola::hdf {
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    close();
+    id_ = other.id_;
+    closer_ = other.closer_;
+    other.id_ = H5I_INVALID_HID;
+  }
+  return *this;
+}
+
+bool Handle::close() {
+  const bool good = id_ < 0 || closer_(id_) >= 0;
+  id_ = H5I_INVALID_HID;
+  return good;
+}
+
+Handle file_access() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.get(), false, true);
+  return access;
+}
+
+std::string last_error() {
+  std::string message;
+  const auto visit = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
+    if (error->desc != nullptr && *error->desc != '\0') {
+      *static_cast<std::string*>(text) = error->desc;
+    }
+    return 0;
+  };
+  // From the outermost call inwards, so that the last one visited is the cause.
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, visit, &message);
+  H5Eclear2(H5E_DEFAULT);
+  return message.empty() ? "no reason given by HDF5" : message;
+}
+
+bool exists(hid_t file, const std::string& name) {
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    if (part != "/" && H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
+      H5Eclear2(H5E_DEFAULT);
+      return false;
+    }
+    if (end == std::string::npos) {
+      return true;
+    }
+  }
+}
+
+}  // namespace cupola::hdf
