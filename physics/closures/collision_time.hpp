@@ -1,0 +1,22 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+
+namespace cupola {
+
+/// Reduced mass of two spheres, kg.
+inline double reduced_mass(double mass_1, double mass_2) { return mass_1 * mass_2 / (mass_1 + mass_2); }
+
+/// Duration of a head-on collision with a linear spring and dashpot, s: sqrt(pi^2 + ln^2 e) sqrt(m12/K).
+/// @param reduced_mass m12, kg  @param stiffness K, N/m (of the parcels: coarse graining times the grain's)
+/// @param restitution e in (0, 1]
+inline double collision_time(double reduced_mass, double stiffness, double restitution) {
+  return std::hypot(std::numbers::pi, std::log(restitution)) * std::sqrt(reduced_mass / stiffness);
+}
+
+/// Damping coefficient that gives the restitution: -2 m12 ln(e)/t, t the collision time; kg/s.
+inline double collision_damping(double reduced_mass, double stiffness, double restitution) {
+  return -2 * reduced_mass * std::log(restitution) / collision_time(reduced_mass, stiffness, restitution);
+}
+
+}  // namespace cupola
