@@ -1,0 +1,284 @@
+#include "stage_dem/liggghts_engine.hpp"
+
+#include <fmt/format.h>
+#include <liggghts/atom.h>
+#include <liggghts/atom_vec.h>
+#include <liggghts/domain.h>
+#include <liggghts/fix.h>
+#include <liggghts/lammps.h>
+#include <liggghts/library.h>
+#include <liggghts/modify.h>
+#include <liggghts/update.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <unordered_set>
+
+#include "schemas/failure.hpp"
+#include "stage_dem/liggghts_instance.hpp"
+#include "stage_dem/liggghts_script.hpp"
+
+namespace cupola {
+namespace {
+
+class LiggghtsEngine final : public Engine {
+ public:
+  LiggghtsEngine(const Campaign& campaign, const EngineSetUp& set_up, MPI_Comm communicator)
+      : liggghts_(communicator, set_up.folder + "/liggghts.log"),
+        folder_(set_up.folder),
+        depth_(campaign.scene.geometry.sides == Geometry::Sides::periodic ? campaign.scene.geometry.depth : 0) {
+    for (const auto& line : liggghts_opening(campaign, liggghts_.ranks())) liggghts_.command(line);
+    int resumed = set_up.from.empty() ? 0 : 1;
+    MPI_Bcast(&resumed, 1, MPI_INT, 0, liggghts_.communicator());
+    if (resumed != 0) {
+      read_restart(set_up.from);
+    } else {
+      for (const auto& line : liggghts_box(campaign)) liggghts_.command(line);
+    }
+    for (const auto& line : liggghts_physics(campaign, set_up.wall_file, set_up.time_step)) liggghts_.command(line);
+    // LIGGGHTS gives per-parcel properties their values from the restart at the first run only.
+    if (resumed != 0) liggghts_.command("run 0 post no");
+  }
+
+  std::vector<Parcel> owned() const override {
+    const auto& atom = *liggghts_->atom;
+    double** begin = per_parcel_vector("block_begin");
+    std::vector<Parcel> parcels(static_cast<std::size_t>(atom.nlocal));
+    for (int i = 0; i < atom.nlocal; ++i) {
+      Parcel& parcel = parcels[static_cast<std::size_t>(i)];
+      parcel.id = atom.tag[i];
+      parcel.species = atom.type[i] - 1;
+      parcel.radius = atom.radius[i];
+      parcel.mass = atom.rmass[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        parcel.position[k] = atom.x[i][k];
+        parcel.velocity[k] = atom.v[i][k];
+        parcel.angular_velocity[k] = atom.omega[i][k];
+        parcel.displacement[k] = atom.x[i][k] - begin[i][k];
+      }
+      if (depth_ > 0) parcel.displacement[1] -= depth_ * std::round(parcel.displacement[1] / depth_);
+    }
+    return parcels;
+  }
+
+  std::int64_t count() const override {
+    std::int64_t parcels = liggghts_->atom->nlocal;
+    MPI_Allreduce(MPI_IN_PLACE, &parcels, 1, MPI_INT64_T, MPI_SUM, liggghts_.communicator());
+    return parcels;
+  }
+
+  void advance(long steps) override {
+    auto& atom = *liggghts_->atom;
+    const std::int64_t expected = count();
+    double** begin = per_parcel_vector("block_begin");
+    std::vector<std::int64_t> before(static_cast<std::size_t>(atom.nlocal));
+    for (int i = 0; i < atom.nlocal; ++i) {
+      before[static_cast<std::size_t>(i)] = atom.tag[i];
+      for (int k = 0; k < 3; ++k) begin[i][k] = atom.x[i][k];
+    }
+    liggghts_.command(fmt::format("run {} post no", steps));
+    check_all_there(expected, before);
+  }
+
+  long step() const override { return static_cast<long>(liggghts_->update->ntimestep); }
+
+  void set_forces(const std::vector<ParcelForce>& forces) override {
+    double** force = per_parcel_vector("dragforce");
+    double* damping = per_parcel_scalar("Ksl");
+    // Gas velocity `uf` stays zero: the fix adds dragforce + Ksl (uf - v) at every step.
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) force[i][k] = forces[i].force[k];
+      damping[i] = forces[i].damping;
+    }
+  }
+
+  void set_time_step(double seconds) override { liggghts_.command(fmt::format("timestep {:.17g}", seconds)); }
+
+  void add(const std::vector<Parcel>& parcels) override {
+    save_contact_history();
+    const std::int64_t expected = count() + static_cast<std::int64_t>(parcels.size());
+    for (const auto& parcel : parcels)
+      if (owns(parcel.position)) create(parcel);
+    renumber_map();
+    if (liggghts_->atom->natoms != expected) fail_outside(parcels);
+  }
+
+  void remove(const std::vector<std::int64_t>& ids) override {
+    save_contact_history();
+    auto& atom = *liggghts_->atom;
+    const std::unordered_set<std::int64_t> gone(ids.begin(), ids.end());
+    for (int i = 0; i < atom.nlocal;) {
+      if (gone.contains(atom.tag[i])) {
+        atom.avec->copy(atom.nlocal - 1, i, 1);
+        --atom.nlocal;
+      } else {
+        ++i;
+      }
+    }
+    renumber_map();
+  }
+
+  void resize(const std::vector<double>& radii) override {
+    auto& atom = *liggghts_->atom;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      atom.radius[i] = radii[i];
+      atom.density[i] = atom.rmass[i] / (4.0 / 3 * std::numbers::pi * std::pow(radii[i], 3));
+    }
+  }
+
+  void stop_motion() override {
+    auto& atom = *liggghts_->atom;
+    for (int i = 0; i < atom.nlocal; ++i)
+      for (int k = 0; k < 3; ++k) atom.v[i][k] = atom.omega[i][k] = 0;
+  }
+
+  std::vector<std::uint8_t> snapshot() override {
+    const std::string file = folder_ + "/liggghts.restart";
+    liggghts_.command("write_restart " + file);
+    std::vector<std::uint8_t> bytes;
+    if (liggghts_.rank() == 0) {
+      std::ifstream stream(file, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(stream), {});
+      stream.close();
+      std::filesystem::remove(file);
+      if (bytes.empty())
+        throw Failure(ExitCode::input_output,
+                      "LIGGGHTS' restart file could not be written and read back: is the disk full?")
+            .at("file", file);
+    }
+    return bytes;
+  }
+
+ private:
+  double** per_parcel_vector(const char* name) const {
+    return static_cast<double**>(lammps_extract_fix(liggghts_.operator->(), name, 1, 2, 0, 0));
+  }
+
+  double* per_parcel_scalar(const char* name) const {
+    return static_cast<double*>(lammps_extract_fix(liggghts_.operator->(), name, 1, 1, 0, 0));
+  }
+
+  void read_restart(const std::vector<std::uint8_t>& bytes) {
+    const std::string file = folder_ + "/liggghts.restart";
+    if (liggghts_.rank() == 0) {
+      std::ofstream stream(file, std::ios::binary);
+      stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      if (!stream)
+        throw Failure(ExitCode::input_output, "LIGGGHTS' restart file could not be written").at("file", file);
+    }
+    MPI_Barrier(liggghts_.communicator());
+    liggghts_.command("read_restart " + file);
+    MPI_Barrier(liggghts_.communicator());
+    if (liggghts_.rank() == 0) std::filesystem::remove(file);
+  }
+
+  /// Contact histories live in the neighbour lists while LIGGGHTS runs; before parcels change places they are moved to
+  /// the parcels (once: the fix knows whether a run has happened since).
+  void save_contact_history() {
+    if (liggghts_->modify->n_fixes_style_strict("contacthistory") == 0) return;
+    liggghts_->modify->find_fix_style_strict("contacthistory", 0)->setup_pre_exchange();
+  }
+
+  bool owns(const Vector3& position) const {
+    const auto& domain = *liggghts_->domain;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (position[k] < domain.sublo[k] || position[k] >= domain.subhi[k]) return false;
+    return true;
+  }
+
+  void create(const Parcel& parcel) {
+    auto& atom = *liggghts_->atom;
+    std::array<double, 3> position = parcel.position;
+    atom.avec->create_atom(liggghts_type(static_cast<std::size_t>(parcel.species)), position.data());
+    const int i = atom.nlocal - 1;
+    atom.tag[i] = static_cast<int>(parcel.id);
+    atom.radius[i] = parcel.radius;
+    atom.rmass[i] = parcel.mass;
+    atom.density[i] = parcel.mass / (4.0 / 3 * std::numbers::pi * std::pow(parcel.radius, 3));
+    for (std::size_t k = 0; k < 3; ++k) {
+      atom.v[i][k] = parcel.velocity[k];
+      atom.omega[i][k] = parcel.angular_velocity[k];
+    }
+    auto& modify = *liggghts_->modify;
+    for (int fix = 0; fix < modify.nfix; ++fix)
+      if (modify.fix[fix]->create_attribute != 0) modify.fix[fix]->set_arrays(i);
+    double** begin = per_parcel_vector("block_begin");
+    for (std::size_t k = 0; k < 3; ++k) begin[i][k] = parcel.position[k] - parcel.displacement[k];
+  }
+
+  /// The number of parcels and the map from tags to places, after parcels came or went.
+  void renumber_map() {
+    auto& atom = *liggghts_->atom;
+    atom.natoms = count();
+    atom.nghost = 0;
+    // The map is sized by the largest tag: it must be known to all.
+    atom.map_init();
+    atom.map_set();
+  }
+
+  void check_all_there(std::int64_t expected, const std::vector<std::int64_t>& before) {
+    const auto& atom = *liggghts_->atom;
+    std::int64_t lost = 0;
+    if (count() != expected) {
+      lost = find_lost(before);
+    } else {
+      std::int64_t bad = 0;
+      for (int i = 0; i < atom.nlocal; ++i)
+        for (int k = 0; k < 3; ++k)
+          if (!std::isfinite(atom.x[i][k]) || !std::isfinite(atom.v[i][k])) bad = atom.tag[i];
+      MPI_Allreduce(&bad, &lost, 1, MPI_INT64_T, MPI_MAX, liggghts_.communicator());
+    }
+    if (lost == 0) return;
+    throw Failure(
+        ExitCode::diverged,
+        fmt::format("parcel {} left the domain or has no finite position at step {}: the time step is too long", lost,
+                    step()))
+        .at("step", std::to_string(step()))
+        .at("parcel", std::to_string(lost))
+        .advise("dem.time_step", fmt::format("{:.3g} s", liggghts_->update->dt / 2));
+  }
+
+  /// The least id that was there before and is nowhere now.
+  std::int64_t find_lost(const std::vector<std::int64_t>& before) {
+    const auto& atom = *liggghts_->atom;
+    std::int64_t largest = 0;
+    for (const auto id : before) largest = std::max(largest, id);
+    MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_INT64_T, MPI_MAX, liggghts_.communicator());
+    std::vector<int> balance(static_cast<std::size_t>(largest) + 1, 0);
+    for (const auto id : before) ++balance[static_cast<std::size_t>(id)];
+    for (int i = 0; i < atom.nlocal; ++i) --balance[static_cast<std::size_t>(atom.tag[i])];
+    MPI_Allreduce(MPI_IN_PLACE, balance.data(), static_cast<int>(balance.size()), MPI_INT, MPI_SUM,
+                  liggghts_.communicator());
+    const auto found = std::find(balance.begin(), balance.end(), 1);
+    return found == balance.end() ? 0 : found - balance.begin();
+  }
+
+  [[noreturn]] void fail_outside(const std::vector<Parcel>& parcels) const {
+    const auto& domain = *liggghts_->domain;
+    for (const auto& parcel : parcels)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (parcel.position[k] < domain.boxlo[k] || parcel.position[k] >= domain.boxhi[k])
+          throw Failure(ExitCode::diverged,
+                        fmt::format("parcel {} was added outside the domain, at {:.3f} {:.3f} {:.3f} m", parcel.id,
+                                    parcel.position[0], parcel.position[1], parcel.position[2]))
+              .at("parcel", std::to_string(parcel.id));
+    throw Failure(ExitCode::diverged, "parcels were lost while others were added");
+  }
+
+  LiggghtsInstance liggghts_;
+  std::string folder_;
+  double depth_;  ///< m, period along y; 0 with walls
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_liggghts_engine(const Campaign& campaign, const EngineSetUp& set_up,
+                                             MPI_Comm communicator) {
+  return std::make_unique<LiggghtsEngine>(campaign, set_up, communicator);
+}
+
+}  // namespace cupola

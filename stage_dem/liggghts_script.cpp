@@ -1,0 +1,174 @@
+#include "stage_dem/liggghts_script.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "schemas/failure.hpp"
+
+namespace cupola {
+namespace {
+
+double largest_diameter(const Campaign& campaign) {
+  double largest = 0;
+  for (const auto& species : campaign.species) largest = std::max(largest, species.parcel_diameter());
+  return largest;
+}
+
+double largest_half_width(const Campaign& campaign) {
+  double largest = 0;
+  for (const auto& corner : campaign.scene.geometry.profile) largest = std::max(largest, corner[1]);
+  return largest;
+}
+
+bool periodic(const Campaign& campaign) { return campaign.scene.geometry.sides == Geometry::Sides::periodic; }
+
+double parcel_mass(const Species& species) {
+  return species.density * std::numbers::pi / 6 * std::pow(species.parcel_diameter(), 3);
+}
+
+/// `fix ID all property/global NAME peratomtypepair N v11 v12 …` from a function of two indices, the wall's last.
+std::string pair_property(const Campaign& campaign, const std::string& name,
+                          const std::function<double(std::size_t, std::size_t)>& value) {
+  const std::size_t types = campaign.species.size() + 1;
+  std::string line = fmt::format("fix {0} all property/global {0} peratomtypepair {1}", name, types);
+  for (std::size_t i = 0; i < types; ++i)
+    for (std::size_t j = 0; j < types; ++j) line += fmt::format(" {:.17g}", value(std::min(i, j), std::max(i, j)));
+  return line;
+}
+
+std::string type_property(const Campaign& campaign, const std::string& name, double value, double wall_value) {
+  std::vector<double> values(campaign.species.size(), value);
+  values.push_back(wall_value);
+  return fmt::format("fix {0} all property/global {0} peratomtype {1:.17g}", name, fmt::join(values, " "));
+}
+
+std::string contact_model(const Contacts& contacts) {
+  std::string model = contacts.model == Contacts::Model::hertz ? "hertz" : "hooke/stiffness";
+  model += " tangential history";
+  if (contacts.rolling_model == Contacts::Rolling::cdt) model += " rolling_friction cdt";
+  if (contacts.rolling_model == Contacts::Rolling::epsd2) model += " rolling_friction epsd2";
+  if (contacts.model == Contacts::Model::linear_spring) model += " absolute_damping on";
+  return model;
+}
+
+void add_linear_spring(const Campaign& campaign, std::vector<std::string>& script) {
+  const auto stiffness = [&](std::size_t i, std::size_t j) { return pair_stiffness(campaign, i, j); };
+  // Tangential over normal stiffness: 2/7, with which the periods of the two springs are the same for a sphere.
+  const auto tangential = [&](std::size_t i, std::size_t j) { return 2.0 / 7 * pair_stiffness(campaign, i, j); };
+  const auto damping = [&](std::size_t i, std::size_t j) {
+    const std::size_t wall = campaign.species.size();
+    if (i == wall) return pair_damping(campaign.contacts.stiffness, parcel_mass(campaign.species.front()), 0.5);
+    const double mass_i = parcel_mass(campaign.species[i]);
+    const double reduced =
+        j == wall ? mass_i : mass_i * parcel_mass(campaign.species[j]) / (mass_i + parcel_mass(campaign.species[j]));
+    return pair_damping(pair_stiffness(campaign, i, j), reduced, contact_pair(campaign, i, j).restitution);
+  };
+  script.push_back(pair_property(campaign, "kn", stiffness));
+  script.push_back(pair_property(campaign, "kt", tangential));
+  script.push_back(pair_property(campaign, "gamman_abs", damping));
+  script.push_back(pair_property(campaign, "gammat_abs", damping));
+}
+
+}  // namespace
+
+ContactPair contact_pair(const Campaign& campaign, std::size_t first, std::size_t second) {
+  const std::size_t wall = campaign.species.size();
+  if (first == wall && second == wall) return {};  // walls do not touch each other, but LIGGGHTS wants a value
+  const auto name = [&](std::size_t index) {
+    return index == wall ? std::string("wall") : campaign.species[index].name;
+  };
+  const std::string key = name(first) + "-" + name(second);
+  const auto found = campaign.contacts.pairs.find(key);
+  if (found == campaign.contacts.pairs.end())
+    throw Failure(ExitCode::wrong_input, fmt::format("contacts.pairs has no entry for {}", key))
+        .at("key", "contacts.pairs");
+  return found->second;
+}
+
+double pair_stiffness(const Campaign& campaign, std::size_t first, std::size_t second) {
+  const std::size_t wall = campaign.species.size();
+  const auto coarse_graining = [&](std::size_t i) { return campaign.species[i].coarse_graining; };
+  if (first == wall) return campaign.contacts.stiffness;
+  if (second == wall) return coarse_graining(first) * campaign.contacts.stiffness;
+  return 2 * coarse_graining(first) * coarse_graining(second) / (coarse_graining(first) + coarse_graining(second)) *
+         campaign.contacts.stiffness;
+}
+
+double pair_damping(double stiffness, double reduced_mass, double restitution) {
+  const double logarithm = std::log(std::clamp(restitution, 0.001, 1.0));
+  const double collision_time =
+      std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm) * std::sqrt(reduced_mass / stiffness);
+  return -2 * reduced_mass * logarithm / collision_time;
+}
+
+std::vector<std::string> liggghts_opening(const Campaign& campaign, int ranks) {
+  // Bricks side by side across the slot share a bed of any height evenly; where they would be thinner than four parcels
+  // the rest of the ranks is put on top of each other.
+  const double thinnest = 4 * largest_diameter(campaign);
+  int across = 1;
+  for (int n = 1; n <= ranks; ++n)
+    if (ranks % n == 0 && 2 * largest_half_width(campaign) / n >= thinnest) across = n;
+  return {"atom_style granular",
+          // Exact tags; no sorting, so that the order of parcels (and with it round-off) depends on the run alone.
+          "atom_modify map array sort 0 0", fmt::format("boundary f {} f", periodic(campaign) ? "p" : "f"),
+          "newton off", "communicate single vel yes", "units si",
+          fmt::format("processors {} 1 {}", across, ranks / across)};
+}
+
+std::vector<std::string> liggghts_box(const Campaign& campaign) {
+  const double margin = largest_diameter(campaign);
+  const double x = largest_half_width(campaign) + margin;
+  const double y = campaign.scene.geometry.depth / 2 + (periodic(campaign) ? 0 : margin);
+  return {fmt::format("region domain block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} units box", -x, x, -y, y,
+                      campaign.bottom() - margin, campaign.hopper_top() + margin),
+          fmt::format("create_box {} domain", campaign.species.size() + 1)};
+}
+
+std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::string& wall_file, double time_step) {
+  const Contacts& contacts = campaign.contacts;
+  const std::string model = contact_model(contacts);
+  const auto restitution = [&](std::size_t i, std::size_t j) {
+    return std::clamp(contact_pair(campaign, i, j).restitution, 0.05, 1.0);  // LIGGGHTS' own bounds
+  };
+  std::vector<std::string> script{
+      fmt::format("neighbor {:.17g} bin", 0.12 * largest_diameter(campaign)),
+      "neigh_modify delay 0",
+      pair_property(campaign, "coefficientFriction",
+                    [&](std::size_t i, std::size_t j) { return contact_pair(campaign, i, j).friction; }),
+  };
+  if (contacts.rolling_model != Contacts::Rolling::none)
+    script.push_back(pair_property(campaign, "coefficientRollingFriction",
+                                   [&](std::size_t i, std::size_t j) { return contact_pair(campaign, i, j).rolling; }));
+  if (contacts.model == Contacts::Model::hertz) {
+    script.push_back(pair_property(campaign, "coefficientRestitution", restitution));
+    script.push_back(type_property(campaign, "youngsModulus", contacts.youngs_modulus, contacts.wall_youngs_modulus));
+    script.push_back(type_property(campaign, "poissonsRatio", contacts.poisson_ratio, contacts.poisson_ratio));
+  } else {
+    add_linear_spring(campaign, script);
+  }
+  const std::vector<std::string> rest{
+      fmt::format("pair_style gran model {}", model),
+      "pair_coeff * *",
+      fmt::format("timestep {:.17g}", time_step),
+      "fix gravity all gravity 9.81 vector 0.0 0.0 -1.0",
+      fmt::format("fix wall_mesh all mesh/surface file {} type {}", wall_file, campaign.species.size() + 1),
+      fmt::format("fix walls all wall/gran model {} mesh n_meshes 1 meshes wall_mesh", model),
+      // Ksl, uf and dragforce a parcel are written by the host; nothing is exchanged by LIGGGHTS itself.
+      "fix coupling all couple/cfd couple_every 0 mpi",
+      "fix gas_force all couple/cfd/force/implicit",
+      "fix block_begin all property/atom block_begin vector yes no no 0. 0. 0.",
+      "fix integration all nve/sphere",
+      "thermo_style custom step atoms ke",
+      "thermo 1000000000",
+      "thermo_modify lost ignore norm no",
+  };
+  script.insert(script.end(), rest.begin(), rest.end());
+  return script;
+}
+
+}  // namespace cupola
