@@ -40,8 +40,7 @@ class LiggghtsEngine final : public Engine {
       for (const auto& line : liggghts_box(campaign)) liggghts_.command(line);
     }
     for (const auto& line : liggghts_physics(campaign, set_up.wall_file, set_up.time_step)) liggghts_.command(line);
-    // LIGGGHTS gives per-parcel properties their values from the restart at the first run only.
-    if (resumed != 0) liggghts_.command("run 0 post no");
+    if (resumed != 0) make_ready();
   }
 
   std::vector<Parcel> owned() const override {
@@ -105,6 +104,7 @@ class LiggghtsEngine final : public Engine {
       if (owns(parcel.position)) create(parcel);
     renumber_map();
     if (liggghts_->atom->natoms != expected) fail_outside(parcels);
+    if (!ready_ && expected > 0) make_ready();
   }
 
   void remove(const std::vector<std::int64_t>& ids) override {
@@ -174,6 +174,19 @@ class LiggghtsEngine final : public Engine {
     liggghts_.command("read_restart " + file);
     MPI_Barrier(liggghts_.communicator());
     if (liggghts_.rank() == 0) std::filesystem::remove(file);
+  }
+
+  /// The first run sets per-parcel properties to their defaults, or to what the restart file holds: an empty one before
+  /// anything is written to them.
+  void make_ready() {
+    const bool restored = liggghts_->update->ntimestep > 0;
+    liggghts_.command("run 0 post no");
+    ready_ = true;
+    if (restored) return;
+    const auto& atom = *liggghts_->atom;
+    double** begin = per_parcel_vector("block_begin");
+    for (int i = 0; i < atom.nlocal; ++i)
+      for (int k = 0; k < 3; ++k) begin[i][k] = atom.x[i][k];
   }
 
   /// Contact histories live in the neighbour lists while LIGGGHTS runs; before parcels change places they are moved to
@@ -271,7 +284,8 @@ class LiggghtsEngine final : public Engine {
 
   LiggghtsInstance liggghts_;
   std::string folder_;
-  double depth_;  ///< m, period along y; 0 with walls
+  double depth_;        ///< m, period along y; 0 with walls
+  bool ready_ = false;  ///< whether a first run has been made
 };
 
 }  // namespace

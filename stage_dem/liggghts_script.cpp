@@ -52,8 +52,12 @@ std::string contact_model(const Contacts& contacts) {
   model += " tangential history";
   if (contacts.rolling_model == Contacts::Rolling::cdt) model += " rolling_friction cdt";
   if (contacts.rolling_model == Contacts::Rolling::epsd2) model += " rolling_friction epsd2";
-  if (contacts.model == Contacts::Model::linear_spring) model += " absolute_damping on";
   return model;
+}
+
+/// Settings of the contact model, which LIGGGHTS wants last on a line.
+std::string contact_settings(const Contacts& contacts) {
+  return contacts.model == Contacts::Model::linear_spring ? " absolute_damping on" : "";
 }
 
 void add_linear_spring(const Campaign& campaign, std::vector<std::string>& script) {
@@ -152,12 +156,13 @@ std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::s
     add_linear_spring(campaign, script);
   }
   const std::vector<std::string> rest{
-      fmt::format("pair_style gran model {}", model),
+      fmt::format("pair_style gran model {}{}", model, contact_settings(contacts)),
       "pair_coeff * *",
       fmt::format("timestep {:.17g}", time_step),
       "fix gravity all gravity 9.81 vector 0.0 0.0 -1.0",
       fmt::format("fix wall_mesh all mesh/surface file {} type {}", wall_file, campaign.species.size() + 1),
-      fmt::format("fix walls all wall/gran model {} mesh n_meshes 1 meshes wall_mesh", model),
+      fmt::format("fix walls all wall/gran model {} mesh n_meshes 1 meshes wall_mesh{}", model,
+                  contact_settings(contacts)),
       // Ksl, uf and dragforce a parcel are written by the host; nothing is exchanged by LIGGGHTS itself.
       "fix coupling all couple/cfd couple_every 0 mpi",
       "fix gas_force all couple/cfd/force/implicit",
