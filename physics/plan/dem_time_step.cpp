@@ -1,5 +1,6 @@
 #include "physics/plan/dem_time_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

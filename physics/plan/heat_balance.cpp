@@ -1,0 +1,159 @@
+#include "physics/plan/heat_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "physics/closures/carson.hpp"
+#include "physics/closures/gas_properties.hpp"
+#include "physics/closures/layer_exchange.hpp"
+#include "physics/closures/ranz_marshall.hpp"
+
+namespace cupola {
+namespace {
+
+/// Wall area per metre of height, m: the two side walls, and front and back where they are walls.
+double wall_perimeter(const Campaign& campaign, double z) {
+  const Geometry& geometry = campaign.scene.geometry;
+  const double step = 1e-4;
+  const double slope = (campaign.half_width(z + step) - campaign.half_width(z - step)) / (2 * step);
+  const double sides = 2 * geometry.depth * std::hypot(1.0, slope);
+  return geometry.sides == Geometry::Sides::walls ? sides + 4 * campaign.half_width(z) : sides;
+}
+
+/// Each species has layers of its own.
+bool in_layers(const Campaign& campaign) {
+  const auto& layers = campaign.charging.layers;
+  return std::all_of(layers.begin(), layers.end(), [](const Layer& layer) {
+    return std::count_if(layer.begin(), layer.end(), [](const auto& part) { return part.second > 0; }) == 1;
+  });
+}
+
+/// The campaign's exchange at a height of the bed.
+class CampaignExchange {
+ public:
+  CampaignExchange(const Campaign& campaign, const Charge& charge, const std::vector<std::size_t>& kinds,
+                   double gas_mass_flow)
+      : campaign_(campaign),
+        charge_(charge),
+        kinds_(kinds),
+        gas_mass_flow_(gas_mass_flow),
+        gas_conductivity_(gas_conductivity(campaign.scene.gas->viscosity, campaign.scene.gas->heat_capacity,
+                                           campaign.scene.gas->prandtl)) {}
+
+  BedExchange operator()(double z, const std::vector<bool>& present) const {
+    const double area = slot_area(campaign_, z);
+    double share_present = 0;
+    for (std::size_t k = 0; k < kinds_.size(); ++k) share_present += present[k] ? charge_.volume_share[kinds_[k]] : 0;
+    BedExchange exchange;
+    for (std::size_t k = 0; k < kinds_.size(); ++k) {
+      const Species& species = campaign_.species[kinds_[k]];
+      const double share = present[k] ? charge_.volume_share[kinds_[k]] / share_present : 0;
+      const double transfer =
+          heat_transfer_coefficient(gas_mass_flow_ / area, species.diameter, campaign_.scene.gas->viscosity,
+                                    campaign_.scene.gas->prandtl, gas_conductivity_, campaign_.heat->nusselt_factor);
+      exchange.gas.push_back(transfer * 6 * charge_.packing * share / species.diameter * area);
+    }
+    if (kinds_.size() == 2 && present[0] && present[1]) exchange.between_solids = layers(area) * area;
+    if (campaign_.scene.heat_loss) {
+      exchange.wall = campaign_.scene.heat_loss->coefficient * wall_perimeter(campaign_, z);
+    }
+    return exchange;
+  }
+
+ private:
+  [[nodiscard]] double layers(double area) const {
+    if (!in_layers(campaign_)) return 0;
+    const double stretch = charge_.area / area;
+    const auto conductivity = [&](std::size_t i) {
+      return bed_conductivity_carson(campaign_.species[i].conductivity, charge_.packing);
+    };
+    return layer_exchange(charge_.layer_thickness[kinds_[0]] * stretch, conductivity(kinds_[0]),
+                          charge_.layer_thickness[kinds_[1]] * stretch, conductivity(kinds_[1]));
+  }
+
+  const Campaign& campaign_;
+  const Charge& charge_;
+  const std::vector<std::size_t>& kinds_;
+  double gas_mass_flow_, gas_conductivity_;
+};
+
+}  // namespace
+
+double inlet_height(const Campaign& campaign) {
+  double flow = 0, moment = 0;
+  if (campaign.scene.gas) {
+    for (const Inlet& inlet : campaign.scene.gas->inlets) {
+      flow += inlet.mass_flow;
+      moment += inlet.mass_flow * (inlet.side == Inlet::Side::bottom ? campaign.bottom() : inlet.z);
+    }
+  }
+  return flow > 0 ? moment / flow : campaign.bottom();
+}
+
+std::optional<HeatBalance> heat_balance(const Campaign& campaign, const Charge& charge) {
+  if (!campaign.heat || !campaign.scene.gas || charge.total_mass_rate() <= 0) return std::nullopt;
+  const Gas& gas = *campaign.scene.gas;
+  HeatBalance result;
+  for (const Inlet& inlet : gas.inlets) {
+    result.gas_mass_flow += inlet.mass_flow;
+    result.gas_temperature += inlet.mass_flow * inlet.total_temperature;
+  }
+  result.gas_enters_at_height = inlet_height(campaign);
+  const double stock_line = campaign.charging.stock_line;
+  if (result.gas_mass_flow <= 0 || stock_line <= result.gas_enters_at_height) return std::nullopt;
+  result.gas_temperature /= result.gas_mass_flow;
+  result.gas_heat_capacity_flow = result.gas_mass_flow * gas.heat_capacity;
+
+  for (std::size_t i = 0; i < campaign.species.size(); ++i) {
+    if (charge.mass_rate[i] > 0) result.kinds.push_back(i);
+  }
+  CounterCurrentBed bed;
+  for (const std::size_t i : result.kinds) {
+    const Species& species = campaign.species[i];
+    DescendingSolids solids;
+    solids.heat_capacity_flow = charge.mass_rate[i] * species.heat_capacity;
+    solids.charged_at = campaign.charging.temperature;
+    if (species.softening) {
+      solids.melts_at = species.softening->melted;
+      solids.none_below = stock_line - std::max(species.none_below, result.gas_enters_at_height);
+    }
+    result.solids_heat_capacity_flow += solids.heat_capacity_flow;
+    bed.solids.push_back(solids);
+  }
+  bed.length = stock_line - result.gas_enters_at_height;
+  bed.gas_heat_capacity_flow = result.gas_heat_capacity_flow;
+  bed.gas_enters_at = result.gas_temperature;
+  if (campaign.scene.heat_loss) bed.wall_temperature = campaign.scene.heat_loss->ambient;
+  const CampaignExchange exchange(campaign, charge, result.kinds, result.gas_mass_flow);
+  bed.exchange = [&](double depth, const std::vector<bool>& present) { return exchange(stock_line - depth, present); };
+  result.profile = solve_counter_current_bed(bed);
+  result.top_gas_temperature = result.profile.gas_temperature.front();
+
+  const std::size_t count = campaign.species.size();
+  result.transfer_units.assign(count, 0);
+  result.melting_height.resize(count);
+  result.softening_height.resize(count);
+  result.leaves_at.assign(count, campaign.charging.temperature);
+  const auto& depth = result.profile.depth;
+  for (std::size_t k = 0; k < result.kinds.size(); ++k) {
+    const std::size_t i = result.kinds[k];
+    for (std::size_t n = 1; n < depth.size(); ++n) {
+      const double middle = (depth[n] + depth[n - 1]) / 2;
+      std::vector<bool> present;
+      for (const double end : result.profile.end_depth) present.push_back(middle < end);
+      result.transfer_units[i] +=
+          bed.exchange(middle, present).gas[k] * (depth[n] - depth[n - 1]) / bed.solids[k].heat_capacity_flow;
+    }
+    result.leaves_at[i] = result.profile.solids_temperature[k].back();
+    if (const auto& melts = result.profile.melting_depth[k]) result.melting_height[i] = stock_line - *melts;
+    if (const auto& softening = campaign.species[i].softening) {
+      if (const auto softens = result.profile.depth_of(k, softening->from)) {
+        result.softening_height[i] = stock_line - *softens;
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace cupola

@@ -1,0 +1,3 @@
+cupola_test(test_counter_current_bed LABEL verification
+  SOURCES verification/counter_current_bed_test.cpp
+  LIBRARIES cupola_plan)
