@@ -16,7 +16,8 @@ class CellLocator {
 
   /// The cell, or -1 outside the mesh.  y wraps where the sides are periodic.  `guess` may be -1.
   [[nodiscard]] std::int64_t find(const Vector3& point, std::int64_t guess = -1) const;
-  /// The cell whose centre is nearest among the candidates near the point (for points just outside a wall); -1 if far away.
+  /// The cell whose centre is nearest among the candidates near the point (for points just outside a wall); -1 if far
+  /// away.
   [[nodiscard]] std::int64_t nearest(const Vector3& point) const;
 
  private:

@@ -182,7 +182,7 @@ MeshCounts mesh_counts(const Campaign& campaign) {
     const double cell = campaign.scene.mesh.cell;
     counts.rows = even_cells(counts.levels, cell);
     counts.slices = even_cells(counts.sections, cell);
-    counts.columns = 2 * cells_on(mean_half_width(campaign), 2 * cell);
+    counts.columns = cells_on(mean_half_width(campaign), cell);
   }
   return counts;
 }
