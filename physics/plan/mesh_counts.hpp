@@ -12,7 +12,7 @@ namespace cupola {
 /// Blocks lie between planes of vertices.  In height: the corners of the profile, the lower and upper edges of the
 /// tuyeres and the stock line where it is inside; along the depth: front, back and the sides of the tuyeres; across:
 /// the two walls and x = 0.  Cells are even within a block and nowhere larger than `cell`, except across the slot,
-/// where their number is the same at every height: the even number whose cells, at the mean half width, are not larger
+/// where their number is the same at every height: that whose cells, at the mean half width, are not larger
 /// than `cell`. Where `scene.mesh.cells` states the counts, these are shared out so that the longest edge is as short
 /// as can be.
 struct MeshCounts {
