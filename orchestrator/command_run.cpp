@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "orchestrator/child_process.hpp"
+#include "orchestrator/commands.hpp"
+#include "orchestrator/stage_launcher.hpp"
+#include "schemas/campaign_reader.hpp"
+#include "schemas/version.hpp"
+
+namespace cupola {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `runs/<campaign>`, with nothing in the name that would lead elsewhere.
+fs::path usual_folder(const fs::path& campaign_file) {
+  std::string name = load_campaign(campaign_file).name;
+  std::replace(name.begin(), name.end(), '/', '-');
+  if (name.empty() || name.front() == '.') name.insert(0, "run");
+  return fs::path("runs") / name;
+}
+
+ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& signals) {
+  const StageLauncher launcher(StageLauncher::own_folder());
+  ProgressView view;
+  const int at_most = options.at_most.value_or(folder.campaign().converged.at_most);
+  const ProcessIdentity self = ProcessIdentity::of(::getpid());
+  folder.journal().append(
+      "orchestrator-started",
+      {{"host", self.host}, {"pid", self.pid}, {"program_version", program_version}, {"at_most", at_most}});
+  return march(folder, launcher, signals, view, options, [] {});
+}
+
+}  // namespace
+
+ExitCode run(const fs::path& campaign_file, const std::optional<fs::path>& folder, const MarchOptions& options) {
+  SignalWatch signals;
+  const auto opened = RunFolder::for_campaign(campaign_file, folder.value_or(usual_folder(campaign_file)));
+  return go_on(*opened, options, signals);
+}
+
+ExitCode resume(const fs::path& folder, const MarchOptions& options) {
+  SignalWatch signals;
+  const auto opened = RunFolder::open(folder);
+  return go_on(*opened, options, signals);
+}
+
+}  // namespace cupola

@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "orchestrator/march.hpp"
+#include "schemas/failure.hpp"
+
+/// The commands of `cupola`, one function each.  All throw Failure.
+namespace cupola {
+
+/// `cupola validate CAMPAIGN`: all errors of a campaign file.
+ExitCode validate(const std::filesystem::path& campaign_file, bool as_json);
+
+/// `cupola run CAMPAIGN`: begins a run folder, or goes on with it.
+/// @param folder none: `runs/<campaign>` in the present folder
+ExitCode run(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder,
+             const MarchOptions& options);
+
+/// `cupola resume RUN`
+ExitCode resume(const std::filesystem::path& folder, const MarchOptions& options);
+
+/// `cupola status RUN`
+ExitCode status(const std::filesystem::path& folder, bool as_json);
+
+/// `cupola init DIR`: writes a commented campaign to begin with.
+ExitCode init(const std::filesystem::path& folder);
+
+/// `cupola doctor`: is everything there that a run needs, and do two ranks really work together?
+ExitCode doctor();
+
+}  // namespace cupola

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <functional>
+
+#include "orchestrator/commands.hpp"
+#include "schemas/failure.hpp"
+#include "schemas/version.hpp"
+
+namespace {
+
+using cupola::ExitCode;
+using cupola::Failure;
+
+int report(const Failure& failure) {
+  fmt::print(stderr, "{}\n", failure.what());
+  for (const auto& [key, value] : failure.advice()) fmt::print(stderr, "  try {}: {}\n", key, value);
+  return static_cast<int>(failure.code());
+}
+
+int run_command(const std::function<ExitCode()>& command) {
+  try {
+    return static_cast<int>(command());
+  } catch (const Failure& failure) {
+    return report(failure);
+  } catch (const std::filesystem::filesystem_error& problem) {
+    return report(Failure(ExitCode::input_output, problem.what()));
+  } catch (const std::exception& problem) {
+    return report(Failure(ExitCode::wrong_input, problem.what()));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Thermal steady states of moving beds: campaigns of a DEM stage and a tracer stage in turns.", "cupola");
+  app.set_version_flag("--version", std::string("cupola ") + cupola::program_version);
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 done or converged, 65 the input is wrong, 70 a stage diverged, 73 another process holds the "
+      "folder,\n"
+      "74 a file could not be read or written, 75 stopped or not yet converged: resumable.");
+
+  std::filesystem::path campaign, folder;
+  std::optional<std::filesystem::path> run_folder;
+  cupola::MarchOptions options;
+  bool as_json = false;
+  std::function<ExitCode()> command;
+
+  const auto with_campaign = [&](CLI::App* sub) {
+    sub->add_option("CAMPAIGN", campaign, "The campaign file (YAML)")->required();
+    return sub;
+  };
+  const auto with_folder = [&](CLI::App* sub) {
+    sub->add_option("RUN", folder, "A run folder")->required();
+    return sub;
+  };
+  const auto with_json = [&](CLI::App* sub) { sub->add_flag("--json", as_json, "Answer in JSON"); };
+  const auto with_limits = [&](CLI::App* sub) {
+    sub->add_option("--at-most", options.at_most, "Episodes at most, instead of the campaign's limit")
+        ->check(CLI::PositiveNumber);
+    sub->add_option("--until-episode", options.until_episode, "Stop after this episode; `resume` goes on")
+        ->check(CLI::PositiveNumber);
+  };
+
+  CLI::App* validate = with_campaign(app.add_subcommand("validate", "List all errors of a campaign file"));
+  with_json(validate);
+  validate->callback([&] { command = [&] { return cupola::validate(campaign, as_json); }; });
+
+  CLI::App* run = with_campaign(app.add_subcommand("run", "Run a campaign, or go on with its run folder"));
+  run->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
+  with_limits(run);
+  run->callback([&] { command = [&] { return cupola::run(campaign, run_folder, options); }; });
+
+  CLI::App* resume = with_folder(app.add_subcommand("resume", "Go on with a run that was stopped or killed"));
+  with_limits(resume);
+  resume->callback([&] { command = [&] { return cupola::resume(folder, options); }; });
+
+  CLI::App* status = with_folder(app.add_subcommand("status", "Say how a run stands; changes nothing"));
+  with_json(status);
+  status->callback([&] { command = [&] { return cupola::status(folder, as_json); }; });
+
+  CLI::App* init = app.add_subcommand("init", "Write a commented campaign file to begin with");
+  init->add_option("DIR", folder, "The folder to write campaign.yaml into")->required();
+  init->callback([&] { command = [&] { return cupola::init(folder); }; });
+
+  CLI::App* doctor = app.add_subcommand("doctor", "Check the installation, with a trial run on two ranks");
+  doctor->callback([&] { command = [] { return cupola::doctor(); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::wrong_input);
+  }
+  return run_command(command);
+}

@@ -1,0 +1,129 @@
+#include "orchestrator/march.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "orchestrator/convergence.hpp"
+#include "orchestrator/episode_judgement.hpp"
+#include "orchestrator/stage_runner.hpp"
+
+namespace cupola {
+namespace {
+
+using nlohmann::json;
+using Inputs = std::map<std::string, std::filesystem::path>;
+
+Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const Campaign& campaign) {
+  Inputs inputs;
+  if (before.empty()) return inputs;
+  inputs["packing"] = before.back().dem / "result.hdf";
+  if (campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  return inputs;
+}
+
+Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::filesystem::path& dem,
+                     const Campaign& campaign) {
+  Inputs inputs{{"granular", dem / "result.hdf"}};
+  if (!before.empty() && campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  return inputs;
+}
+
+std::string change_text(const json& judgement) {
+  std::string text;
+  for (const auto& [rule, change] : judgement["change"].items())
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rule,
+                        change.is_null() ? "not known" : fmt::format("{:.3g}", change.get<double>()));
+  return text;
+}
+
+/// The march's own state, derived from the run folder while it goes.
+class March {
+ public:
+  March(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,
+        const MarchOptions& options, const AfterStage& after_stage)
+      : run_(run),
+        stages_(run, launcher, signals, view),
+        view_(view),
+        options_(options),
+        after_stage_(after_stage),
+        limit_(options.at_most.value_or(run.campaign().converged.at_most)) {}
+
+  ExitCode go() {
+    for (int episode = 1; episode <= limit_; ++episode) {
+      if (!finish_episode(episode)) return stop("on request");
+      const Verdict now = judge(episode);
+      if (now != Verdict::not_yet) return end(now, episode);
+      if (options_.until_episode && episode >= *options_.until_episode && episode < limit_)
+        return stop(fmt::format("after episode {}, as asked for", episode));
+    }
+    return end(Verdict::not_yet, limit_);
+  }
+
+ private:
+  bool finish_episode(int episode) {
+    StagePlace place{episode, limit_, TaskKind::dem, 1};
+    const auto dem = stages_.finish(place, dem_inputs(finished_, run_.campaign()));
+    if (!dem) return false;
+    after_stage_();
+    place.kind = TaskKind::tracer;
+    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_.campaign()));
+    if (!tracer) return false;
+    finished_.push_back({*dem, *tracer});
+    return true;
+  }
+
+  /// Judges the episode, or takes what an earlier orchestrator wrote down.
+  Verdict judge(int episode) {
+    json judgement;
+    for (const json& record : run_.journal().records())
+      if (record.value("event", "") == "episode-judged" && record.value("episode", 0) == episode) judgement = record;
+    if (judgement.is_null()) {
+      judgement = judge_episode(finished_, run_.campaign());
+      run_.journal().append("episode-judged", judgement);
+      view_.say(fmt::format("episode {}: change over criterion: {}", episode, change_text(judgement)));
+    }
+    met_.push_back(judgement.value("met", false));
+    after_stage_();
+    return verdict(met_, run_.campaign().converged.for_episodes, judgement.value("unmelted_share", 0.));
+  }
+
+  ExitCode stop(const std::string& why) {
+    view_.say(fmt::format("stopped {}. `cupola resume {}` goes on.", why, run_.path().string()));
+    return ExitCode::stopped;
+  }
+
+  ExitCode end(Verdict verdict, int episode) {
+    const ExitCode code = verdict == Verdict::converged ? ExitCode::done : ExitCode::stopped;
+    const json content = {{"outcome", to_text(verdict)}, {"episodes", episode}, {"status", static_cast<int>(code)}};
+    const json& last = run_.journal().records().back();
+    const bool known = last.value("event", "") == "campaign-ended" && last.value("episodes", 0) == episode;
+    if (!known) run_.journal().append("campaign-ended", content);
+    after_stage_();
+    std::string sentence = fmt::format("{} after {} episodes", to_text(verdict), episode);
+    if (verdict == Verdict::not_yet)
+      sentence +=
+          fmt::format(", its limit. `cupola resume {} --at-most {}` goes on", run_.path().string(), 2 * episode);
+    view_.say(fmt::format("{}: {}.", run_.campaign().name, sentence));
+    return code;
+  }
+
+  RunFolder& run_;
+  StageRunner stages_;
+  ProgressView& view_;
+  MarchOptions options_;
+  const AfterStage& after_stage_;
+  int limit_;
+  std::vector<EpisodeFolders> finished_;
+  std::vector<bool> met_;
+};
+
+}  // namespace
+
+ExitCode march(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,
+               const MarchOptions& options, const AfterStage& after_stage) {
+  return March(run, launcher, signals, view, options, after_stage).go();
+}
+
+}  // namespace cupola

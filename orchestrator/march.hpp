@@ -1,0 +1,30 @@
+#pragma once
+#include <functional>
+#include <optional>
+
+#include "orchestrator/progress_view.hpp"
+#include "orchestrator/run_folder.hpp"
+#include "orchestrator/signal_watch.hpp"
+#include "orchestrator/stage_launcher.hpp"
+#include "schemas/failure.hpp"
+
+namespace cupola {
+
+/// What a user may ask of one `cupola run` or `cupola resume`.
+struct MarchOptions {
+  std::optional<int> at_most;        ///< episodes, instead of the campaign's limit
+  std::optional<int> until_episode;  ///< leaves after this one; the campaign is not over then
+};
+
+/// Called whenever there is something new to show: `report`.
+using AfterStage = std::function<void()>;
+
+/// Strategy `march`, the alternation of seed 001: DEM stage and tracer stage in turns until the campaign's criteria are
+/// met or its limit is reached.  DEM stage k gets the packing of DEM stage k-1 and the temperatures of tracer stage
+/// k-1; tracer stage k gets the granular field of DEM stage k and the temperatures of tracer stage k-1.
+/// @return done: converged; stopped: at its limit, steady without melting, or on request
+/// @throws Failure as StageRunner::finish
+ExitCode march(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,
+               const MarchOptions& options, const AfterStage& after_stage);
+
+}  // namespace cupola

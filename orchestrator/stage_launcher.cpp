@@ -1,0 +1,73 @@
+#include "orchestrator/stage_launcher.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+
+#include "schemas/failure.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr const char* log_name = "stage.log";
+
+/// Cores that mpirun counts as places for ranks: hardware threads of one core count once.
+int physical_cores() {
+  std::set<std::string> cores;
+  for (int thread = 0;; ++thread) {
+    std::ifstream siblings(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", thread));
+    std::string list;
+    if (!std::getline(siblings, list)) break;
+    cores.insert(list);
+  }
+  return static_cast<int>(cores.size());
+}
+
+}  // namespace
+
+std::string stage_name(TaskKind kind) { return kind == TaskKind::dem ? "dem" : "tracer"; }
+
+StageLauncher::StageLauncher(std::filesystem::path programs) : programs_(std::move(programs)) {
+  for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer})
+    if (::access(program(kind).c_str(), X_OK) != 0)
+      throw Failure(ExitCode::input_output,
+                    fmt::format("{}: not there or not executable. It belongs beside cupola; build it, or see what "
+                                "`cupola doctor` says.",
+                                program(kind).string()));
+}
+
+std::filesystem::path StageLauncher::own_folder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+std::filesystem::path StageLauncher::program(TaskKind kind) const { return programs_ / ("cupola-" + stage_name(kind)); }
+
+Command StageLauncher::prepare(TaskKind kind, const std::filesystem::path& task_folder) const {
+  Command command;
+  command.words = {program(kind).string(), "prepare", task_folder.string()};
+  command.log = task_folder / log_name;
+  command.ends_with_us = true;
+  return command;
+}
+
+Command StageLauncher::run(TaskKind kind, const std::filesystem::path& task_folder, int ranks) const {
+  Command command = mpirun(ranks, {program(kind).string(), task_folder.string()});
+  command.log = task_folder / log_name;
+  return command;
+}
+
+Command mpirun(int ranks, const std::vector<std::string>& program_and_arguments) {
+  Command command;
+  command.words = {"mpirun", "-n", std::to_string(ranks), "--bind-to", "none"};
+  if (ranks > physical_cores()) command.words.emplace_back("--oversubscribe");
+  command.words.insert(command.words.end(), program_and_arguments.begin(), program_and_arguments.end());
+  if (::geteuid() == 0) {
+    command.environment["OMPI_ALLOW_RUN_AS_ROOT"] = "1";
+    command.environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
+  }
+  return command;
+}
+
+}  // namespace cupola

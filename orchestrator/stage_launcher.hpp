@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "orchestrator/child_process.hpp"
+#include "schemas/task.hpp"
+
+namespace cupola {
+
+/// `dem` or `tracer`: the folder of a stage in an episode, and the end of its program's name.
+std::string stage_name(TaskKind kind);
+
+/// How stages are started on this machine: `cupola-dem` and `cupola-tracer` from the folder of our own program, with
+/// mpirun.
+class StageLauncher {
+ public:
+  /// @param programs folder of the stages' programs. @throws Failure input_output where one is missing
+  explicit StageLauncher(std::filesystem::path programs);
+
+  /// The folder this program itself lies in.
+  static std::filesystem::path own_folder();
+
+  /// One process that writes the task's OpenFOAM case; dies with us.
+  [[nodiscard]] Command prepare(TaskKind kind, const std::filesystem::path& task_folder) const;
+  /// The stage itself; goes on when we die.
+  [[nodiscard]] Command run(TaskKind kind, const std::filesystem::path& task_folder, int ranks) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path program(TaskKind kind) const;
+
+  std::filesystem::path programs_;
+};
+
+/// `mpirun` with what a run on this machine needs: no binding (two runs would share the first cores), more ranks than
+/// cores only where they are asked for, permission to run as root only where we do.
+Command mpirun(int ranks, const std::vector<std::string>& program_and_arguments);
+
+}  // namespace cupola
