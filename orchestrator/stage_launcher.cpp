@@ -42,7 +42,9 @@ std::filesystem::path StageLauncher::own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-std::filesystem::path StageLauncher::program(TaskKind kind) const { return programs_ / ("cupola-" + stage_name(kind)); }
+std::filesystem::path StageLauncher::program(TaskKind kind) const {
+  return programs_ / fmt::format("cupola-{}", stage_name(kind));
+}
 
 Command StageLauncher::prepare(TaskKind kind, const std::filesystem::path& task_folder) const {
   Command command;
@@ -64,8 +66,8 @@ Command mpirun(int ranks, const std::vector<std::string>& program_and_arguments)
   if (ranks > physical_cores()) command.words.emplace_back("--oversubscribe");
   command.words.insert(command.words.end(), program_and_arguments.begin(), program_and_arguments.end());
   if (::geteuid() == 0) {
-    command.environment["OMPI_ALLOW_RUN_AS_ROOT"] = "1";
-    command.environment["OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"] = "1";
+    command.environment.emplace("OMPI_ALLOW_RUN_AS_ROOT", "1");
+    command.environment.emplace("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
   }
   return command;
 }
