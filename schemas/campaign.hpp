@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-/// The campaign file as a typed value, SI throughout, nothing left open.  One struct a section of the YAML file, one member a
-/// key, same names.  `read_campaign` (campaign_reader.hpp) makes it; `resolved_yaml` (resolved_campaign.hpp) writes it back.
+/// The campaign file as a typed value, SI throughout, nothing left open.  One struct a section of the YAML file, one
+/// member a key, same names.  `read_campaign` (campaign_reader.hpp) makes it; `resolved_yaml` (resolved_campaign.hpp)
+/// writes it back.
 namespace cupola {
 
 using Vector3 = std::array<double, 3>;
@@ -17,16 +18,17 @@ struct Geometry {
   enum class Kind { slot, box };
   enum class Sides { periodic, walls };
   Kind kind = Kind::slot;
-  double depth = 0;                                ///< m, along y
-  Sides sides = Sides::periodic;                   ///< front and back
-  std::vector<std::array<double, 2>> profile;      ///< (z, half width) in m, z rising; a box has two entries of one half width
+  double depth = 0;               ///< m, along y
+  Sides sides = Sides::periodic;  ///< front and back
+  std::vector<std::array<double, 2>>
+      profile;  ///< (z, half width) in m, z rising; a box has two entries of one half width
 };
 
 /// Exact cell counts, where the wanted edge length is not enough.
 struct MeshCells {
-  int half_width = 0;         ///< from x = 0 to the wall
-  int depth = 0;              ///< along y
-  std::vector<int> heights;   ///< one a section of the profile, from the bottom up
+  int half_width = 0;        ///< from x = 0 to the wall
+  int depth = 0;             ///< along y
+  std::vector<int> heights;  ///< one a section of the profile, from the bottom up
 };
 
 struct MeshSettings {
@@ -39,20 +41,20 @@ struct Inlet {
   enum class Side { left, right, bottom };
   std::string name;
   Side side = Side::left;
-  double z = 0;                       ///< m, centre of the opening; unused for `bottom`
-  std::array<double, 2> size{0, 0};   ///< m: extent along y, extent along the wall's height; unused for `bottom`
-  double mass_flow = 0;               ///< kg/s
-  double total_temperature = 293;     ///< K
+  double z = 0;                      ///< m, centre of the opening; unused for `bottom`
+  std::array<double, 2> size{0, 0};  ///< m: extent along y, extent along the wall's height; unused for `bottom`
+  double mass_flow = 0;              ///< kg/s
+  double total_temperature = 293;    ///< K
 };
 
 struct Gas {
-  std::string species;          ///< a preset (`air`, `nitrogen`, `blast`) or a name for the report
-  double molar_mass = 0;        ///< kg/mol
-  double heat_capacity = 0;     ///< J/kg/K, at constant pressure
-  double viscosity = 0;         ///< Pa s
-  double prandtl = 0;           ///< 1
+  std::string species;       ///< a preset (`air`, `nitrogen`, `blast`) or a name for the report
+  double molar_mass = 0;     ///< kg/mol
+  double heat_capacity = 0;  ///< J/kg/K, at constant pressure
+  double viscosity = 0;      ///< Pa s
+  double prandtl = 0;        ///< 1
   std::vector<Inlet> inlets;
-  double outlet_pressure = 1e5; ///< Pa
+  double outlet_pressure = 1e5;  ///< Pa
 };
 
 struct WallHeatLoss {
@@ -63,7 +65,7 @@ struct WallHeatLoss {
 struct Scene {
   Geometry geometry;
   MeshSettings mesh;
-  std::optional<Gas> gas;               ///< none: a scene without gas
+  std::optional<Gas> gas;                 ///< none: a scene without gas
   std::optional<WallHeatLoss> heat_loss;  ///< `walls.heat_loss`
 };
 
@@ -74,13 +76,13 @@ struct Softening {
 
 struct Species {
   std::string name;
-  double diameter = 0;          ///< m, of the grain
-  double coarse_graining = 1;   ///< parcel diameter over grain diameter
-  double density = 0;           ///< kg/m3
-  double heat_capacity = 0;     ///< J/kg/K
-  double conductivity = 0;      ///< W/m/K
+  double diameter = 0;         ///< m, of the grain
+  double coarse_graining = 1;  ///< parcel diameter over grain diameter
+  double density = 0;          ///< kg/m3
+  double heat_capacity = 0;    ///< J/kg/K
+  double conductivity = 0;     ///< W/m/K
   std::optional<Softening> softening;
-  double none_below = 0;        ///< m; a softening species that gets below this height is removed and counted as unmelted
+  double none_below = 0;  ///< m; a softening species that gets below this height is removed and counted as unmelted
 
   [[nodiscard]] double parcel_diameter() const { return diameter * coarse_graining; }
 };
@@ -97,11 +99,12 @@ struct Contacts {
   enum class Rolling { none, cdt, epsd2 };
   Model model = Model::hertz;
   Rolling rolling_model = Rolling::cdt;
-  double youngs_modulus = 5e7;        ///< Pa (hertz)
-  double wall_youngs_modulus = 5e6;   ///< Pa (hertz)
+  double youngs_modulus = 5e7;       ///< Pa (hertz)
+  double wall_youngs_modulus = 5e6;  ///< Pa (hertz)
   double poisson_ratio = 0.25;
-  double stiffness = 0;               ///< N/m of the grain (linear-spring)
-  std::map<std::string, ContactPair> pairs;  ///< "coke-coke", "coke-ore", "coke-wall", …; species names in the order of `species`
+  double stiffness = 0;  ///< N/m of the grain (linear-spring)
+  std::map<std::string, ContactPair>
+      pairs;  ///< "coke-coke", "coke-ore", "coke-wall", …; species names in the order of `species`
 };
 
 enum class DragLaw { ergun, gidaspow, beetstra };
@@ -113,10 +116,10 @@ struct Heat {
 
 /// Guessed cohesive zone: z = tip - slope |x|; below it one temperature, above it another.
 struct InvertedV {
-  double tip = 0;     ///< m
-  double slope = 0;   ///< 1
-  double below = 0;   ///< K
-  double above = 0;   ///< K
+  double tip = 0;    ///< m
+  double slope = 0;  ///< 1
+  double below = 0;  ///< K
+  double above = 0;  ///< K
 };
 
 struct Initial {
@@ -127,16 +130,17 @@ struct Initial {
 using Layer = std::map<std::string, double>;
 
 struct Charging {
-  double stock_line = 0;       ///< m; a layer is charged when the bed's surface falls below it
-  std::vector<Layer> layers;   ///< the recipe, repeated
-  double temperature = 293;    ///< K of the charge
-  double hopper_height = 0;    ///< m, DEM domain above the mesh top; default: thickest layer (mass/density/0.55) plus 0.5 m
+  double stock_line = 0;      ///< m; a layer is charged when the bed's surface falls below it
+  std::vector<Layer> layers;  ///< the recipe, repeated
+  double temperature = 293;   ///< K of the charge
+  double hopper_height =
+      0;  ///< m, DEM domain above the mesh top; default: thickest layer (mass/density/0.55) plus 0.5 m
 };
 
 struct Raceway {
-  std::array<Vector3, 2> box{};    ///< m, lower and upper corner
-  double void_fraction = 0.75;     ///< `void`: least void fraction the gas sees in the box
-  double dem_removal_rate = 0;     ///< kg/s in the DEM stage
+  std::array<Vector3, 2> box{};  ///< m, lower and upper corner
+  double void_fraction = 0.75;   ///< `void`: least void fraction the gas sees in the box
+  double dem_removal_rate = 0;   ///< kg/s in the DEM stage
 };
 
 struct DemSettings {
@@ -144,25 +148,25 @@ struct DemSettings {
   enum class Stop { fields_converged, duration };
   std::string engine = "liggghts";
   GasModel gas = GasModel::quasi_steady;
-  Stop stop = Stop::duration;          ///< `stop.when`
-  double at_most = 20;                 ///< s, `stop.at_most`
-  double relaxation = 1;               ///< s, before the averaging window begins
-  double window = 2;                   ///< s, averaging window (the shortest one where stop is fields-converged)
-  double standard_error = 0.05;        ///< wanted relative standard error of |u_p| (fields-converged)
-  std::optional<double> time_step;     ///< s; absent: auto
-  double rayleigh_fraction = 0.05;     ///< of the Rayleigh time (hertz) or collision time (linear-spring), for `auto`
-  double block = 0.05;                 ///< s, coupling block: gas, removal, charging and checkpoints happen between blocks
+  Stop stop = Stop::duration;       ///< `stop.when`
+  double at_most = 20;              ///< s, `stop.at_most`
+  double relaxation = 1;            ///< s, before the averaging window begins
+  double window = 2;                ///< s, averaging window (the shortest one where stop is fields-converged)
+  double standard_error = 0.05;     ///< wanted relative standard error of |u_p| (fields-converged)
+  std::optional<double> time_step;  ///< s; absent: auto
+  double rayleigh_fraction = 0.05;  ///< of the Rayleigh time (hertz) or collision time (linear-spring), for `auto`
+  double block = 0.05;              ///< s, coupling block: gas, removal, charging and checkpoints happen between blocks
 };
 
 struct TracerSettings {
   enum class GasModel { none, darcy_forchheimer };
   enum class Displacement { none, random };
-  double duration = 3600;              ///< s
-  std::optional<double> time_step;     ///< s; absent: auto
+  double duration = 3600;           ///< s
+  std::optional<double> time_step;  ///< s; absent: auto
   GasModel gas = GasModel::darcy_forchheimer;
-  double accuracy = 0.01;              ///< wanted relative error
-  double tracers_per_cell = 4;         ///< at least
-  bool clean_field = true;             ///< smooth and project the granular field (docs: cleaning)
+  double accuracy = 0.01;       ///< wanted relative error
+  double tracers_per_cell = 4;  ///< at least
+  bool clean_field = true;      ///< smooth and project the granular field (docs: cleaning)
   int smoothing_passes = 4;
   Displacement displacement = Displacement::none;
   double displacement_coefficient = 5e-4;  ///< m2/s, D0 of the random displacement
@@ -172,11 +176,11 @@ struct TracerSettings {
 enum class Strategy { march };
 
 struct Converged {
-  double temperature = 0.01;            ///< remaining change over rms(T - 293 K)
-  double cohesive_zone_cells = 1;       ///< `cohesive_zone`, in cells
-  double granular_velocity_sigma = 2;   ///< `granular_velocity`, in standard errors
-  int for_episodes = 2;                 ///< `for`
-  int at_most = 8;                      ///< episodes
+  double temperature = 0.01;           ///< remaining change over rms(T - 293 K)
+  double cohesive_zone_cells = 1;      ///< `cohesive_zone`, in cells
+  double granular_velocity_sigma = 2;  ///< `granular_velocity`, in standard errors
+  int for_episodes = 2;                ///< `for`
+  int at_most = 8;                     ///< episodes
 };
 
 struct Launch {
@@ -184,16 +188,16 @@ struct Launch {
 };
 
 struct Campaign {
-  std::string name;                 ///< `campaign`
+  std::string name;  ///< `campaign`
   Scene scene;
-  std::vector<Species> species;     ///< in the order of the file
+  std::vector<Species> species;  ///< in the order of the file
   Contacts contacts;
   DragLaw drag = DragLaw::gidaspow;
   std::optional<Heat> heat;
   Initial initial;
   Charging charging;
   std::vector<Raceway> raceways;
-  double descent_rate = 0;          ///< m/s, downwards, at the stock line
+  double descent_rate = 0;  ///< m/s, downwards, at the stock line
   DemSettings dem;
   TracerSettings tracer;
   Strategy strategy = Strategy::march;

@@ -10,15 +10,15 @@ namespace cupola {
 /// One thing wrong with a campaign file.
 struct CampaignError {
   std::string file;
-  int line = 0;            ///< from 1
-  int column = 0;          ///< from 1
-  std::string key;         ///< path of the key, dots and [index]: `scene.gas.inlets[0].mass_flow`
-  std::string message;     ///< what was expected, what stands there, and the nearest known key for a misspelt one
+  int line = 0;         ///< from 1
+  int column = 0;       ///< from 1
+  std::string key;      ///< path of the key, dots and [index]: `scene.gas.inlets[0].mass_flow`
+  std::string message;  ///< what was expected, what stands there, and the nearest known key for a misspelt one
 };
 
 /// Result of reading: either a campaign, or all errors of the file at once.
 struct ReadCampaign {
-  Campaign campaign;                    ///< valid only without errors
+  Campaign campaign;  ///< valid only without errors
   std::vector<CampaignError> errors;
   [[nodiscard]] bool ok() const { return errors.empty(); }
 };

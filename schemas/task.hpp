@@ -12,22 +12,24 @@ enum class TaskKind { dem, tracer };
 
 /// A file a task reads, with the content hash it must have.
 struct TaskInput {
-  std::filesystem::path file;   ///< relative to the task folder
-  std::string hash;             ///< as hash_file gives it
+  std::filesystem::path file;  ///< relative to the task folder
+  std::string hash;            ///< as hash_file gives it
 };
 
 /// `task.yaml`: all a stage needs to know.  Inputs by name:
-///   dem:    `packing` (DEM result of the episode before; absent in the first), `solids_temperature` (tracer result of the
+///   dem:    `packing` (DEM result of the episode before; absent in the first), `solids_temperature` (tracer result of
+///   the
 ///           episode before; absent in the first: the guessed cohesive zone of the campaign counts)
-///   tracer: `granular` (DEM result of this episode), `solids_temperature` (tracer result of the episode before, or absent)
+///   tracer: `granular` (DEM result of this episode), `solids_temperature` (tracer result of the episode before, or
+///   absent)
 struct Task {
   TaskKind kind = TaskKind::dem;
-  int episode = 1;              ///< from 1
-  std::string campaign_hash;    ///< of the frozen campaign file
+  int episode = 1;            ///< from 1
+  std::string campaign_hash;  ///< of the frozen campaign file
   std::string program_version;
   std::uint64_t random_seed = 1;  ///< of this task
   std::map<std::string, TaskInput> inputs;
-  Campaign campaign;            ///< resolved
+  Campaign campaign;  ///< resolved
 };
 
 /// Writes `task.yaml` atomically into the folder. @throws Failure input_output

@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "schemas/campaign.hpp"
+
+/// The words that stand for enumerators in campaign files.
+namespace cupola::words {
+
+template <typename Enum, std::size_t count>
+using Table = std::array<std::pair<Enum, std::string_view>, count>;
+
+inline constexpr Table<Geometry::Sides, 2> sides{
+    {{Geometry::Sides::periodic, "periodic"}, {Geometry::Sides::walls, "walls"}}};
+inline constexpr Table<Inlet::Side, 3> inlet_side{
+    {{Inlet::Side::left, "left"}, {Inlet::Side::right, "right"}, {Inlet::Side::bottom, "bottom"}}};
+inline constexpr Table<Contacts::Model, 2> contact_model{
+    {{Contacts::Model::hertz, "hertz"}, {Contacts::Model::linear_spring, "linear-spring"}}};
+inline constexpr Table<Contacts::Rolling, 3> rolling_model{
+    {{Contacts::Rolling::none, "none"}, {Contacts::Rolling::cdt, "cdt"}, {Contacts::Rolling::epsd2, "epsd2"}}};
+inline constexpr Table<DragLaw, 3> drag{
+    {{DragLaw::ergun, "ergun"}, {DragLaw::gidaspow, "gidaspow"}, {DragLaw::beetstra, "beetstra"}}};
+inline constexpr Table<DemSettings::GasModel, 2> dem_gas{
+    {{DemSettings::GasModel::none, "none"}, {DemSettings::GasModel::quasi_steady, "quasi-steady"}}};
+inline constexpr Table<DemSettings::Stop, 2> dem_stop{
+    {{DemSettings::Stop::fields_converged, "fields-converged"}, {DemSettings::Stop::duration, "duration"}}};
+inline constexpr Table<TracerSettings::GasModel, 2> tracer_gas{
+    {{TracerSettings::GasModel::none, "none"}, {TracerSettings::GasModel::darcy_forchheimer, "darcy-forchheimer"}}};
+inline constexpr Table<TracerSettings::Displacement, 2> displacement{
+    {{TracerSettings::Displacement::none, "none"}, {TracerSettings::Displacement::random, "random"}}};
+inline constexpr Table<Strategy, 1> strategy{{{Strategy::march, "march"}}};
+
+template <typename Enum, std::size_t count>
+constexpr std::string_view word_of(const Table<Enum, count>& table, Enum wanted) {
+  for (const auto& [value, word] : table) {
+    if (value == wanted) return word;
+  }
+  return {};
+}
+
+}  // namespace cupola::words

@@ -1,0 +1,166 @@
+#include "schemas/resolved_campaign.hpp"
+
+#include "schemas/campaign_words.hpp"
+#include "schemas/yaml_text.hpp"
+
+namespace cupola {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Enum, std::size_t count>
+std::string word(const words::Table<Enum, count>& table, Enum value) {
+  return std::string(words::word_of(table, value));
+}
+
+Json or_auto(const std::optional<double>& value) { return value ? Json(*value) : Json("auto"); }
+
+Json geometry_json(const Geometry& geometry) {
+  const auto sides = word(words::sides, geometry.sides);
+  if (geometry.kind == Geometry::Kind::box) {
+    return {{"box",
+             {{"width", 2 * geometry.profile.back()[1]},
+              {"depth", geometry.depth},
+              {"height", geometry.profile.back()[0]},
+              {"sides", sides}}}};
+  }
+  return {{"slot", {{"depth", geometry.depth}, {"sides", sides}, {"profile", geometry.profile}}}};
+}
+
+Json gas_json(const Gas& gas) {
+  Json inlets = Json::array();
+  for (const auto& inlet : gas.inlets) {
+    Json item{{"name", inlet.name}, {"side", word(words::inlet_side, inlet.side)}};
+    if (inlet.side != Inlet::Side::bottom) {
+      item["z"] = inlet.z;
+      item["size"] = inlet.size;
+    }
+    item["mass_flow"] = inlet.mass_flow;
+    item["total_temperature"] = inlet.total_temperature;
+    inlets.push_back(item);
+  }
+  return {{"species", gas.species},
+          {"molar_mass", gas.molar_mass},
+          {"heat_capacity", gas.heat_capacity},
+          {"viscosity", gas.viscosity},
+          {"prandtl", gas.prandtl},
+          {"inlets", inlets},
+          {"outlet", {{"pressure", gas.outlet_pressure}}}};
+}
+
+Json scene_json(const Scene& scene) {
+  Json json{{"geometry", geometry_json(scene.geometry)}, {"mesh", {{"cell", scene.mesh.cell}}}};
+  if (const auto& cells = scene.mesh.cells) {
+    json["mesh"]["cells"] = {{"half_width", cells->half_width}, {"depth", cells->depth}, {"heights", cells->heights}};
+  }
+  if (scene.gas) json["gas"] = gas_json(*scene.gas);
+  if (scene.heat_loss) {
+    json["walls"] = {
+        {"heat_loss", {{"coefficient", scene.heat_loss->coefficient}, {"ambient", scene.heat_loss->ambient}}}};
+  }
+  return json;
+}
+
+Json species_json(const Species& species) {
+  Json json{{"diameter", species.diameter},
+            {"coarse_graining", species.coarse_graining},
+            {"density", species.density},
+            {"heat_capacity", species.heat_capacity},
+            {"conductivity", species.conductivity}};
+  if (species.softening) {
+    json["softening"] = {{"from", species.softening->from}, {"melted", species.softening->melted}};
+    json["none_below"] = species.none_below;
+  }
+  return json;
+}
+
+Json contacts_json(const Contacts& contacts) {
+  Json json{{"model", word(words::contact_model, contacts.model)},
+            {"rolling_model", word(words::rolling_model, contacts.rolling_model)},
+            {"youngs_modulus", contacts.youngs_modulus},
+            {"wall_youngs_modulus", contacts.wall_youngs_modulus},
+            {"poisson_ratio", contacts.poisson_ratio}};
+  if (contacts.stiffness > 0) json["stiffness"] = contacts.stiffness;
+  for (const auto& [name, pair] : contacts.pairs) {
+    json["pairs"][name] = {{"restitution", pair.restitution}, {"friction", pair.friction}, {"rolling", pair.rolling}};
+  }
+  return json;
+}
+
+Json raceways_json(const std::vector<Raceway>& raceways) {
+  Json json = Json::array();
+  for (const auto& raceway : raceways) {
+    const auto range = [&](std::size_t axis) { return Json::array({raceway.box[0][axis], raceway.box[1][axis]}); };
+    json.push_back({{"box", {{"x", range(0)}, {"y", range(1)}, {"z", range(2)}}},
+                    {"void", raceway.void_fraction},
+                    {"dem_removal_rate", raceway.dem_removal_rate}});
+  }
+  return json;
+}
+
+Json dem_json(const DemSettings& dem) {
+  return {{"engine", dem.engine},
+          {"gas", word(words::dem_gas, dem.gas)},
+          {"stop", {{"when", word(words::dem_stop, dem.stop)}, {"at_most", dem.at_most}}},
+          {"relaxation", dem.relaxation},
+          {"window", dem.window},
+          {"standard_error", dem.standard_error},
+          {"time_step", or_auto(dem.time_step)},
+          {"rayleigh_fraction", dem.rayleigh_fraction},
+          {"block", dem.block}};
+}
+
+Json tracer_json(const TracerSettings& tracer) {
+  return {{"duration", tracer.duration},
+          {"time_step", or_auto(tracer.time_step)},
+          {"gas", word(words::tracer_gas, tracer.gas)},
+          {"accuracy", tracer.accuracy},
+          {"tracers_per_cell", tracer.tracers_per_cell},
+          {"clean_field", tracer.clean_field},
+          {"smoothing_passes", tracer.smoothing_passes},
+          {"displacement", word(words::displacement, tracer.displacement)},
+          {"displacement_coefficient", tracer.displacement_coefficient},
+          {"displacement_limit", tracer.displacement_limit}};
+}
+
+Json initial_json(const Initial& initial) {
+  Json json{{"bed", "layered"}};
+  if (const auto& v = initial.cohesive_zone) {
+    json["cohesive_zone"]["inverted_v"] = {
+        {"tip", v->tip}, {"slope", v->slope}, {"below", v->below}, {"above", v->above}};
+  }
+  return json;
+}
+
+}  // namespace
+
+Json resolved_json(const Campaign& campaign) {
+  Json json{{"campaign", campaign.name}, {"scene", scene_json(campaign.scene)}};
+  for (const auto& species : campaign.species) json["species"][species.name] = species_json(species);
+  json["contacts"] = contacts_json(campaign.contacts);
+  json["drag"] = word(words::drag, campaign.drag);
+  if (campaign.heat) json["heat"] = {{"nusselt_factor", campaign.heat->nusselt_factor}};
+  json["initial"] = initial_json(campaign.initial);
+  const auto& charging = campaign.charging;
+  json["charging"] = {{"stock_line", charging.stock_line},
+                      {"layers", charging.layers},
+                      {"temperature", charging.temperature},
+                      {"hopper_height", charging.hopper_height}};
+  json["raceways"] = raceways_json(campaign.raceways);
+  json["descent_rate"] = campaign.descent_rate;
+  json["dem"] = dem_json(campaign.dem);
+  json["tracer"] = tracer_json(campaign.tracer);
+  json["strategy"] = word(words::strategy, campaign.strategy);
+  json["converged"] = {{"temperature", campaign.converged.temperature},
+                       {"cohesive_zone", campaign.converged.cohesive_zone_cells},
+                       {"granular_velocity", campaign.converged.granular_velocity_sigma},
+                       {"for", campaign.converged.for_episodes},
+                       {"at_most", campaign.converged.at_most}};
+  json["launch"] = {{"ranks", campaign.launch.ranks}};
+  json["random_seed"] = campaign.random_seed;
+  return json;
+}
+
+std::string resolved_yaml(const Campaign& campaign) { return yaml_text(resolved_json(campaign)); }
+
+}  // namespace cupola
