@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/closures/inlet.hpp"
 #include "physics/mesh/bed_mesh.hpp"
 #include "physics/mesh/foam_case.hpp"
 #include "physics/projection/bed_state.hpp"
@@ -55,14 +56,13 @@ class DarcyForchheimer {
   [[nodiscard]] const WarmStart& warm_start() const;
   void restore(WarmStart start);
 
-  /// Gas at an inlet's opening, for the report and the choking check (MODEL 13).
-  struct InletState {
+  /// Gas in an inlet's opening at the mean pressure there, for the report and the choking check (MODEL 13).
+  struct NamedInlet {
     std::string name;
-    double pressure = 0;  ///< Pa, area mean at the opening
-    double velocity = 0;  ///< m/s, from the static temperature
-    double mach = 0;
+    InletState state;
+    double smallest_opening = 0;  ///< m2, that passes the flow at the largest Mach number allowed
   };
-  [[nodiscard]] std::vector<InletState> inlets() const;
+  [[nodiscard]] std::vector<NamedInlet> inlets() const;
 
  private:
   struct State;

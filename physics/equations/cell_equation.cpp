@@ -1,0 +1,216 @@
+#include "physics/equations/cell_equation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fvMesh.H"
+#include "lduMatrix.H"
+#include "physics/equations/face_geometry.hpp"
+#include "schemas/failure.hpp"
+#include "volFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+namespace cupola {
+namespace {
+
+/// A face of the local mesh: which face of the BedMesh it is, and whether its owner is the owner there.
+struct LocalFace {
+  std::size_t face = 0;
+  bool same_owner = true;
+};
+
+LocalFace find_face(const BedMesh& mesh, std::int64_t cell, const Foam::vector& centre) {
+  LocalFace found;
+  double nearest = std::numeric_limits<double>::max();
+  for (const auto face : mesh.cell_faces[cell]) {
+    const Vector3& other = mesh.face_centre[face];
+    const double distance = std::hypot(other[0] - centre.x(), other[1] - centre.y(), other[2] - centre.z());
+    if (distance < nearest) {
+      nearest = distance;
+      found = {static_cast<std::size_t>(face), mesh.face_owner[face] == cell};
+    }
+  }
+  return found;
+}
+
+double sum_of_magnitudes(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += std::abs(value);
+  return sum;
+}
+
+std::vector<double> residual_of(const BedMesh& mesh, const CellCoefficients& coefficients, const std::vector<double>& source,
+                                const std::vector<double>& x) {
+  std::vector<double> residual(mesh.cells());
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    residual[cell] = source[cell] - coefficients.diagonal[cell] * x[cell];
+  }
+  for (std::size_t face = 0; face < mesh.faces(); ++face) {
+    const auto neighbour = mesh.face_neighbour[face];
+    if (neighbour < 0) continue;
+    residual[mesh.face_owner[face]] += coefficients.owner_row[face] * x[neighbour];
+    if (face < mesh.internal_faces()) {
+      residual[neighbour] += coefficients.neighbour_row[face] * x[mesh.face_owner[face]];
+    }
+  }
+  return residual;
+}
+
+/// Solvers that converge on the graded, layered meshes of furnaces (docs/gas.md).
+Foam::dictionary solver_controls(bool symmetric, double relative_tolerance) {
+  Foam::dictionary controls;
+  controls.add("tolerance", 0.0);
+  controls.add("relTol", relative_tolerance);
+  controls.add("maxIter", Foam::label(500));
+  if (symmetric) {
+    Foam::dictionary multigrid;
+    multigrid.add("preconditioner", Foam::word("GAMG"));
+    multigrid.add("smoother", Foam::word("symGaussSeidel"));
+    multigrid.add("agglomerator", Foam::word("faceAreaPair"));
+    multigrid.add("mergeLevels", Foam::label(1));
+    multigrid.add("cacheAgglomeration", Foam::Switch(true));
+    multigrid.add("nCellsInCoarsestLevel", Foam::label(20));
+    multigrid.add("tolerance", 0.0);
+    multigrid.add("relTol", 0.0);
+    multigrid.add("nVcycles", Foam::label(1));
+    controls.add("solver", Foam::word("PCG"));
+    controls.add("preconditioner", multigrid);
+  } else {
+    controls.add("solver", Foam::word("PBiCGStab"));
+    controls.add("preconditioner", Foam::word("DILU"));
+  }
+  return controls;
+}
+
+}  // namespace
+
+struct CellEquation::State {
+  State(FoamCase& foam_case, const BedMesh& bed_mesh)
+      : foam(foam_case),
+        mesh(bed_mesh),
+        correction(Foam::IOobject("cellEquationCorrection", foam.mesh().time().timeName(), foam.mesh(), Foam::IOobject::NO_READ,
+                                  Foam::IOobject::NO_WRITE, false),
+                   foam.mesh(), Foam::dimensionedScalar("zero", Foam::dimless, 0),
+                   Foam::zeroGradientFvPatchScalarField::typeName) {
+    const Foam::fvMesh& local = foam.mesh();
+    const auto& global = foam.global_cell();
+    for (Foam::label face = 0; face < local.nInternalFaces(); ++face) {
+      internal.push_back(find_face(mesh, global[local.faceOwner()[face]], local.faceCentres()[face]));
+    }
+    forAll(local.boundary(), patch) {
+      const auto& fv_patch = local.boundary()[patch];
+      std::vector<LocalFace> faces;
+      if (fv_patch.coupled()) {
+        forAll(fv_patch, face) {
+          faces.push_back(find_face(mesh, global[fv_patch.faceCells()[face]], local.faceCentres()[fv_patch.start() + face]));
+        }
+      }
+      boundary.push_back(std::move(faces));
+    }
+  }
+
+  /// One call of OpenFOAM's solver: an approximate correction for the residual, over all cells.
+  std::vector<double> correct(const CellCoefficients& coefficients, const std::vector<double>& residual,
+                              double relative_tolerance, int& cycles) {
+    const Foam::fvMesh& local = foam.mesh();
+    Foam::lduMatrix matrix(local);
+    const auto diagonal = foam.local(coefficients.diagonal);
+    std::copy(diagonal.begin(), diagonal.end(), matrix.diag().begin());
+    Foam::scalarField& upper = matrix.upper();
+    forAll(upper, face) {
+      const auto& [number, same] = internal[face];
+      upper[face] = -(same ? coefficients.owner_row : coefficients.neighbour_row)[number];
+    }
+    if (!coefficients.symmetric) {
+      Foam::scalarField& lower = matrix.lower();
+      forAll(lower, face) {
+        const auto& [number, same] = internal[face];
+        lower[face] = -(same ? coefficients.neighbour_row : coefficients.owner_row)[number];
+      }
+    }
+    // Of a coupled patch the solvers subtract coefficient x value on the other side from A x.
+    Foam::FieldField<Foam::Field, Foam::scalar> coupling(local.boundary().size());
+    Foam::FieldField<Foam::Field, Foam::scalar> on_diagonal(local.boundary().size());
+    forAll(local.boundary(), patch) {
+      coupling.set(patch, new Foam::scalarField(local.boundary()[patch].size(), 0));
+      on_diagonal.set(patch, new Foam::scalarField(local.boundary()[patch].size(), 0));
+      for (std::size_t face = 0; face < boundary[patch].size(); ++face) {
+        const auto& [number, same] = boundary[patch][face];
+        // Seen from its own cell: the coefficient of the value beyond the face in this cell's row.
+        coupling[patch][static_cast<Foam::label>(face)] =
+            (same ? coefficients.owner_row : coefficients.neighbour_row)[number];
+        on_diagonal[patch][static_cast<Foam::label>(face)] = coupling[patch][static_cast<Foam::label>(face)];
+      }
+    }
+    const auto local_residual = foam.local(residual);
+    Foam::scalarField source(local.nCells());
+    std::copy(local_residual.begin(), local_residual.end(), source.begin());
+    correction = Foam::dimensionedScalar("zero", Foam::dimless, 0);
+    const auto performance =
+        Foam::lduMatrix::solver::New(correction.name(), matrix, coupling, on_diagonal,
+                                     correction.boundaryField().scalarInterfaces(),
+                                     solver_controls(coefficients.symmetric, relative_tolerance))
+            ->solve(correction.primitiveFieldRef(), source);
+    cycles += performance.nIterations();
+    const auto& values = correction.primitiveField();
+    return foam.everywhere(std::vector<double>(values.begin(), values.end()));
+  }
+
+  [[noreturn]] void not_finite(const std::string& what, const std::vector<double>& values) const {
+    std::size_t cell = 0;
+    while (cell + 1 < values.size() && std::isfinite(values[cell])) ++cell;
+    const Vector3& centre = mesh.cell_centre[cell];
+    throw Failure(ExitCode::diverged, fmt::format("{} became infinite or undefined, first in cell {} at ({:.3f}, {:.3f}, {:.3f}) m",
+                                                  what, cell, centre[0], centre[1], centre[2]))
+        .at("cell", std::to_string(cell));
+  }
+
+  FoamCase& foam;
+  const BedMesh& mesh;
+  Foam::volScalarField correction;
+  std::vector<LocalFace> internal;
+  std::vector<std::vector<LocalFace>> boundary;  ///< by patch; empty where nothing is coupled
+};
+
+CellEquation::CellEquation(FoamCase& foam, const BedMesh& mesh) : state_(std::make_unique<State>(foam, mesh)) {}
+CellEquation::~CellEquation() = default;
+CellEquation::CellEquation(CellEquation&&) noexcept = default;
+CellEquation& CellEquation::operator=(CellEquation&&) noexcept = default;
+
+CellEquation::Result CellEquation::solve(const std::string& what, const CellCoefficients& coefficients,
+                                         const std::vector<double>& source, std::vector<double>& x, double tolerance,
+                                         double acceptable) {
+  State& state = *state_;
+  Result result;
+  std::vector<double> residual = residual_of(state.mesh, coefficients, source, x);
+  result.residual = sum_of_magnitudes(residual);
+  if (!std::isfinite(result.residual)) state.not_finite(what, residual);
+  constexpr int most_rounds = 12;
+  for (int round = 0; round < most_rounds && result.residual > tolerance; ++round) {
+    const double wanted = std::clamp(0.3 * tolerance / result.residual, 1e-10, 0.1);
+    const auto correction = state.correct(coefficients, residual, wanted, result.cycles);
+    auto improved = x;
+    for (std::size_t cell = 0; cell < x.size(); ++cell) improved[cell] += correction[cell];
+    auto left = residual_of(state.mesh, coefficients, source, improved);
+    const double left_sum = sum_of_magnitudes(left);
+    if (!std::isfinite(left_sum)) state.not_finite(what, left);
+    // Below this only rounding is left: a round that no longer halves the residual is the last.
+    const bool stagnant = left_sum > 0.5 * result.residual;
+    if (left_sum < result.residual) {
+      x = std::move(improved);
+      residual = std::move(left);
+      result.residual = left_sum;
+    }
+    if (stagnant) break;
+  }
+  if (result.residual > acceptable) {
+    throw Failure(ExitCode::diverged, fmt::format("{} could not be solved: residual {:.3g} of {:.3g} allowed after {} cycles", what,
+                                                  result.residual, acceptable, result.cycles))
+        .advise("scene.mesh.cell", "a mesh with less stretched cells");
+  }
+  return result;
+}
+
+}  // namespace cupola

@@ -1,0 +1,358 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/closures/drag.hpp"
+#include "physics/closures/gas_properties.hpp"
+#include "physics/equations/cell_equation.hpp"
+#include "physics/equations/face_geometry.hpp"
+#include "physics/gas/bed_gas.hpp"
+#include "schemas/failure.hpp"
+
+namespace cupola {
+namespace {
+
+/// Least resistance of a cell over the mean of the cells that hold solids: see the class comment.
+constexpr double least_relative_resistance = 1e-4;
+/// A cell with less solids than this counts as empty.
+constexpr double empty_solids_fraction = 1e-6;
+/// Mass is conserved to this share of the blast in every iteration, where rounding allows.
+constexpr double mass_tolerance = 1e-12;
+constexpr double acceptable_mass_residual = 1e-7;
+
+double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
+
+/// Tangent of the drag law in one cell, in terms of psi: -grad psi = (value + slope (|G| - speed)) G.
+struct Resistance {
+  double value = 0;   ///< 1/s
+  double slope = 0;   ///< m2/kg
+  double speed = 0;   ///< |G| where the tangent touches, kg/m2/s
+};
+
+}  // namespace
+
+struct DarcyForchheimer::State {
+  State(FoamCase& foam, const BedMesh& bed_mesh, const Campaign& campaign)
+      : mesh(bed_mesh), geometry(bed_mesh), equation(foam, bed_mesh), gas(*campaign.scene.gas), drag(campaign.drag) {
+    boundary_flux.assign(mesh.faces(), 0);
+    for (const auto& inlet : gas.inlets) {
+      const auto* patch = mesh.find_patch(inlet.name);
+      if (patch == nullptr || patch->kind != BedMesh::PatchKind::inlet) {
+        throw Failure(ExitCode::wrong_input, fmt::format("the mesh does not hold the inlet '{}'", inlet.name))
+            .at("key", "scene.gas.inlets");
+      }
+      const double opening = patch_area(*patch);
+      for (auto face = patch->first_face; face < patch->first_face + patch->faces; ++face) {
+        boundary_flux[face] = -inlet.mass_flow * geometry.area[face] / opening;
+      }
+      blast += inlet.mass_flow;
+    }
+    is_outlet.assign(mesh.faces(), false);
+    double outlet_area = 0;
+    for (const auto& patch : mesh.patches) {
+      if (patch.kind != BedMesh::PatchKind::outlet) continue;
+      outlet_area += patch_area(patch);
+      std::fill_n(is_outlet.begin() + patch.first_face, patch.faces, true);
+    }
+    if (outlet_area <= 0) throw Failure(ExitCode::wrong_input, "the mesh has no outlet for the gas");
+    if (blast <= 0) throw Failure(ExitCode::wrong_input, "no inlet blows any gas").at("key", "scene.gas.inlets");
+    usual_flux = blast / outlet_area;
+    psi_outlet = gas.outlet_pressure * gas.outlet_pressure / 2;
+    start.squared_pressure.assign(mesh.cells(), 0);
+  }
+
+  [[nodiscard]] double patch_area(const BedMesh::Patch& patch) const {
+    double sum = 0;
+    for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) sum += geometry.area[face];
+    return sum;
+  }
+
+  [[noreturn]] void diverged(const std::string& sentence, std::size_t cell) const {
+    const Vector3& centre = mesh.cell_centre[cell];
+    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell, centre[0],
+                                                  centre[1], centre[2]))
+        .at("cell", std::to_string(cell));
+  }
+
+  /// Tangents of the drag law at the cells' mass fluxes; at the usual flux everywhere when there is none yet.
+  void set_resistances(const BedState& bed, const std::vector<double>& gas_temperature) {
+    const double specific_gas_constant = molar_gas_constant / gas.molar_mass;
+    resistance.resize(mesh.cells());
+    double sum = 0, volume = 0;
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      const double void_fraction = bed.void_fraction[cell];
+      if (!(void_fraction > 0) || void_fraction > 1 + 1e-12) {
+        diverged(fmt::format("a cell without gas: void fraction {}", void_fraction), cell);
+      }
+      if (!(gas_temperature[cell] > 0)) diverged(fmt::format("gas temperature is {} K", gas_temperature[cell]), cell);
+      Resistance& r = resistance[cell];
+      r.speed = cold ? usual_flux : magnitude(mass_flux[cell]);
+      if (void_fraction > 1 - empty_solids_fraction) {
+        r.value = r.slope = 0;
+        continue;
+      }
+      // The laws depend on density x speed only, so a density of 1 turns the speed into the mass flux.
+      const auto law = [&](double flux) {
+        return specific_gas_constant * gas_temperature[cell] *
+               drag_resistance(drag, void_fraction, bed.grain_diameter[cell], gas.viscosity, 1, flux, bed.polydispersity[cell]);
+      };
+      const double step = 1e-3 * std::max(r.speed, 1e-3 * usual_flux);
+      r.value = law(r.speed);
+      r.slope = cold ? 0 : std::max(0.0, (law(r.speed + step) - r.value) / step);
+      sum += r.value * mesh.cell_volume[cell];
+      volume += mesh.cell_volume[cell];
+    }
+    if (volume == 0) throw Failure(ExitCode::diverged, "no solids left in any cell: the gas has nothing to flow through");
+    least_resistance = least_relative_resistance * sum / volume;
+  }
+
+  /// Resistance on the cell's side of a face with the normal mass flux `normal_flux`, and its derivative by it times it:
+  /// the normal flux is the face's, the tangential one the cell's (it jumps from layer to layer, the normal one does not).
+  [[nodiscard]] std::pair<double, double> at_face(std::int64_t cell, std::size_t face, double normal_flux) const {
+    const Resistance& r = resistance[cell];
+    double speed = r.speed;
+    if (!cold) {
+      const Vector3& g = mass_flux[cell];
+      const double along = dot(g, geometry.normal[face]);
+      speed = std::sqrt(std::max(0.0, dot(g, g) - along * along) + normal_flux * normal_flux);
+    }
+    const double value = std::max({r.value + r.slope * (speed - r.speed), 0.1 * r.value, least_resistance});
+    const double increase = speed > 0 ? r.slope * normal_flux * normal_flux / speed : 0;
+    return {value, increase};
+  }
+
+  [[nodiscard]] bool through_flow(std::size_t face) const { return mesh.face_neighbour[face] >= 0 || is_outlet[face]; }
+
+  /// psi at the face as seen from one of its cells, from the cell's own law.
+  [[nodiscard]] double psi_from(std::int64_t cell, const Vector3& offset, double normal_drop) const {
+    const Vector3& g = mass_flux[cell];
+    return start.squared_pressure[cell] - std::max(resistance[cell].value, least_resistance) * dot(g, offset) - normal_drop;
+  }
+
+  /// One Newton step: the linearised law of every face,
+  ///   g_new = g (1 - R/D) + (psi_P - psi_N - oblique)/D,   R g the drop of psi at g, D its derivative,
+  /// put into the mass balance. @return relative change
+  double step(DarcyForchheimer::Result& result) {
+    const std::size_t faces = mesh.faces();
+    std::vector<double> conductance(faces, 0), fixed(faces, 0);
+    for (std::size_t face = 0; face < faces; ++face) {
+      if (!through_flow(face)) {
+        fixed[face] = boundary_flux[face];
+        continue;
+      }
+      const double area = geometry.area[face];
+      const double flux = cold ? 0 : start.face_mass_flux[face];
+      const auto owner = mesh.face_owner[face];
+      const auto neighbour = mesh.face_neighbour[face];
+      const auto [owner_value, owner_increase] = at_face(owner, face, flux / area);
+      double drop = geometry.owner_distance[face] * owner_value;
+      double slope = drop + geometry.owner_distance[face] * owner_increase;
+      // Where the line of centres is not normal to the face: what psi changes along the face, from the cells' own law.
+      double oblique = cold ? 0 : -owner_value * dot(mass_flux[owner], geometry.owner_offset[face]);
+      if (neighbour >= 0) {
+        const auto [value, increase] = at_face(neighbour, face, flux / area);
+        drop += geometry.neighbour_distance[face] * value;
+        slope += geometry.neighbour_distance[face] * (value + increase);
+        if (!cold) oblique += value * dot(mass_flux[neighbour], geometry.neighbour_offset[face]);
+      }
+      conductance[face] = area / slope;
+      fixed[face] = flux * (1 - drop / slope) + oblique * conductance[face];
+    }
+
+    CellCoefficients coefficients{std::vector<double>(mesh.cells(), 0), std::vector<double>(faces, 0),
+                                  std::vector<double>(mesh.internal_faces(), 0), true};
+    for (std::size_t face = 0; face < faces; ++face) {
+      coefficients.diagonal[mesh.face_owner[face]] += conductance[face];
+      if (mesh.face_neighbour[face] >= 0) coefficients.owner_row[face] = conductance[face];
+      if (face < mesh.internal_faces()) {
+        coefficients.diagonal[mesh.face_neighbour[face]] += conductance[face];
+        coefficients.neighbour_row[face] = conductance[face];
+      }
+    }
+    auto source = FaceGeometry::outflow(mesh, fixed);
+    for (double& value : source) value = -value;
+    auto psi = start.squared_pressure;
+    result.cycles += equation.solve("gas pressure", coefficients, source, psi, mass_tolerance * blast,
+                                    acceptable_mass_residual * blast).cycles;
+
+    std::vector<double> flux(faces);
+    double changed = 0, all = 0;
+    for (std::size_t face = 0; face < faces; ++face) {
+      flux[face] = fixed[face];
+      if (through_flow(face)) {
+        const double beyond = mesh.face_neighbour[face] >= 0 ? psi[mesh.face_neighbour[face]] : 0;
+        flux[face] += conductance[face] * (psi[mesh.face_owner[face]] - beyond);
+      }
+      const double before = cold ? 0 : start.face_mass_flux[face];
+      changed += (flux[face] - before) * (flux[face] - before);
+      all += flux[face] * flux[face];
+    }
+    double changed_psi = 0, all_psi = 0;
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      const double difference = psi[cell] - start.squared_pressure[cell];
+      changed_psi += difference * difference * mesh.cell_volume[cell];
+      all_psi += psi[cell] * psi[cell] * mesh.cell_volume[cell];
+      if (!(psi[cell] + psi_outlet > 0)) diverged("gas pressure is no longer positive", cell);
+    }
+    start.squared_pressure = std::move(psi);
+    start.face_mass_flux = std::move(flux);
+    mass_flux = geometry.cell_vectors(mesh, start.face_mass_flux);
+    cold = false;
+    return std::sqrt(std::max(changed / all, changed_psi / all_psi));
+  }
+
+  void finish() {
+    pressure.resize(mesh.cells());
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      pressure[cell] = std::sqrt(2 * (start.squared_pressure[cell] + psi_outlet));
+    }
+    set_gradient();
+    set_inertia();
+  }
+
+  /// Face pressures from both sides' laws, their mean; then the surface integral over each cell.
+  void set_gradient() {
+    face_pressure.resize(mesh.faces());
+    for (std::size_t face = 0; face < mesh.faces(); ++face) {
+      const double flux = start.face_mass_flux[face];
+      const double normal_flux = flux / geometry.area[face];
+      const auto owner = mesh.face_owner[face];
+      const auto neighbour = mesh.face_neighbour[face];
+      const double owner_drop = geometry.owner_distance[face] * at_face(owner, face, normal_flux).first * normal_flux;
+      double psi = psi_from(owner, geometry.owner_offset[face], owner_drop);
+      if (is_outlet[face]) {
+        psi = 0;
+      } else if (neighbour >= 0) {
+        const double drop = geometry.neighbour_distance[face] * at_face(neighbour, face, normal_flux).first * normal_flux;
+        psi = (psi + psi_from(neighbour, geometry.neighbour_offset[face], -drop)) / 2;
+      }
+      face_pressure[face] = std::sqrt(2 * std::max(0.0, psi + psi_outlet));
+    }
+    gradient.assign(mesh.cells(), Vector3{0, 0, 0});
+    for (std::size_t face = 0; face < mesh.faces(); ++face) {
+      const auto owner = mesh.face_owner[face];
+      const auto neighbour = mesh.face_neighbour[face];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double part = face_pressure[face] * mesh.face_area[face][axis];
+        gradient[owner][axis] += part / mesh.cell_volume[owner];
+        if (face < mesh.internal_faces()) gradient[neighbour][axis] -= part / mesh.cell_volume[neighbour];
+      }
+    }
+  }
+
+  /// |div(G u)| over the drag r |U|, u = G/(density x void fraction) the interstitial velocity, upwind.
+  void set_inertia() {
+    std::vector<Vector3> velocity(mesh.cells());
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      const double density_of_bed = gas_density(pressure[cell], temperature[cell], gas.molar_mass) * void_fraction[cell];
+      for (std::size_t axis = 0; axis < 3; ++axis) velocity[cell][axis] = mass_flux[cell][axis] / density_of_bed;
+    }
+    std::vector<Vector3> force(mesh.cells(), Vector3{0, 0, 0});
+    for (std::size_t face = 0; face < mesh.faces(); ++face) {
+      const auto neighbour = mesh.face_neighbour[face];
+      if (neighbour < 0) continue;
+      const auto owner = mesh.face_owner[face];
+      const double flux = start.face_mass_flux[face];
+      // Only what flows in brings another velocity than the cell's own.
+      const auto into = flux > 0 ? neighbour : owner;
+      const auto from = flux > 0 ? owner : neighbour;
+      if (into == neighbour && face >= mesh.internal_faces()) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        force[into][axis] += std::abs(flux) * (velocity[into][axis] - velocity[from][axis]) / mesh.cell_volume[into];
+      }
+    }
+    inertia.assign(mesh.cells(), 0);
+    inertia_largest = 0;
+    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+      const double flux = magnitude(mass_flux[cell]);
+      if (void_fraction[cell] > 1 - empty_solids_fraction || flux < 0.01 * usual_flux) continue;
+      // r U = (r R T/M G)/p
+      const double drag_force = resistance[cell].value * flux / pressure[cell];
+      inertia[cell] = magnitude(force[cell]) / (void_fraction[cell] * drag_force);
+      inertia_largest = std::max(inertia_largest, inertia[cell]);
+    }
+  }
+
+  const BedMesh& mesh;
+  FaceGeometry geometry;
+  CellEquation equation;
+  Gas gas;
+  DragLaw drag;
+
+  std::vector<double> boundary_flux;  ///< kg/s out of the owner, inlets; 0 elsewhere
+  std::vector<bool> is_outlet;
+  double blast = 0;                   ///< kg/s
+  double usual_flux = 0;              ///< kg/m2/s, blast over the outlet's area
+  double psi_outlet = 0;              ///< Pa2
+
+  bool cold = true;                   ///< no mass fluxes known yet
+  WarmStart start;
+  std::vector<Vector3> mass_flux;
+  std::vector<Resistance> resistance;
+  double least_resistance = 0;
+  std::vector<double> void_fraction, temperature;
+
+  std::vector<double> pressure, face_pressure, inertia;
+  std::vector<Vector3> gradient;
+  double inertia_largest = 0;
+};
+
+DarcyForchheimer::DarcyForchheimer(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign)
+    : state_(std::make_unique<State>(foam, mesh, campaign)) {}
+DarcyForchheimer::~DarcyForchheimer() = default;
+
+DarcyForchheimer::Result DarcyForchheimer::solve(const BedState& bed, const std::vector<double>& gas_temperature,
+                                                 double tolerance, int most_iterations) {
+  State& state = *state_;
+  state.void_fraction = bed.void_fraction;
+  state.temperature = gas_temperature;
+  Result result;
+  do {
+    state.set_resistances(bed, gas_temperature);
+    result.change = state.step(result);
+    ++result.iterations;
+  } while (result.change > tolerance && result.iterations < most_iterations);
+  state.set_resistances(bed, gas_temperature);
+  state.finish();
+  double residual = 0;
+  for (const double value : FaceGeometry::outflow(state.mesh, state.start.face_mass_flux)) residual += std::abs(value);
+  result.mass_residual = residual / state.blast;
+  return result;
+}
+
+const std::vector<double>& DarcyForchheimer::pressure() const { return state_->pressure; }
+const std::vector<Vector3>& DarcyForchheimer::mass_flux() const { return state_->mass_flux; }
+const std::vector<Vector3>& DarcyForchheimer::pressure_gradient() const { return state_->gradient; }
+const std::vector<double>& DarcyForchheimer::face_mass_flux() const { return state_->start.face_mass_flux; }
+double DarcyForchheimer::inertia_over_drag_largest() const { return state_->inertia_largest; }
+const std::vector<double>& DarcyForchheimer::inertia_over_drag() const { return state_->inertia; }
+const DarcyForchheimer::WarmStart& DarcyForchheimer::warm_start() const { return state_->start; }
+
+void DarcyForchheimer::restore(WarmStart start) {
+  State& state = *state_;
+  state.start = std::move(start);
+  state.mass_flux = state.geometry.cell_vectors(state.mesh, state.start.face_mass_flux);
+  state.cold = false;
+}
+
+std::vector<DarcyForchheimer::NamedInlet> DarcyForchheimer::inlets() const {
+  const State& state = *state_;
+  std::vector<NamedInlet> result;
+  for (const auto& inlet : state.gas.inlets) {
+    const auto& patch = *state.mesh.find_patch(inlet.name);
+    const double opening = state.patch_area(patch);
+    double pressure = 0;
+    for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) {
+      pressure += state.face_pressure[face] * state.geometry.area[face] / opening;
+    }
+    result.push_back({inlet.name,
+                      inlet_state(inlet.mass_flow, inlet.total_temperature, opening, pressure, state.gas.molar_mass,
+                                  state.gas.heat_capacity),
+                      smallest_opening(inlet.mass_flow, inlet.total_temperature, pressure, state.gas.molar_mass,
+                                       state.gas.heat_capacity)});
+  }
+  return result;
+}
+
+}  // namespace cupola

@@ -1,0 +1,81 @@
+#include "physics/projection/bed_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/closures/drag_beetstra.hpp"
+#include "schemas/failure.hpp"
+
+namespace cupola {
+namespace {
+
+/// Moments of the grains in one cell that the drag laws ask for.
+struct Grains {
+  double volume = 0;                    // m3
+  double volume_over_diameter = 0;      // m2
+  double volume_times_diameter = 0;     // m4
+
+  [[nodiscard]] double sauter_diameter() const { return volume / volume_over_diameter; }
+  [[nodiscard]] double mean_size_ratio() const { return volume_times_diameter / volume / sauter_diameter(); }
+};
+
+}  // namespace
+
+std::vector<std::int64_t> raceway_cells(const BedMesh& mesh, const Raceway& raceway) {
+  std::vector<std::int64_t> cells;
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    const Vector3& centre = mesh.cell_centre[cell];
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      inside = inside && centre[axis] >= raceway.box[0][axis] && centre[axis] <= raceway.box[1][axis];
+    }
+    if (inside) cells.push_back(static_cast<std::int64_t>(cell));
+  }
+  return cells;
+}
+
+BedState bed_state(const BedMesh& mesh, const Campaign& campaign, const std::vector<std::vector<double>>& species_volume) {
+  double largest_diameter = 0;
+  for (const auto& species : campaign.species) largest_diameter = std::max(largest_diameter, species.diameter);
+
+  BedState bed;
+  bed.void_fraction.resize(mesh.cells());
+  bed.grain_diameter.assign(mesh.cells(), largest_diameter);
+  bed.polydispersity.assign(mesh.cells(), 1);
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    Grains grains;
+    for (std::size_t species = 0; species < campaign.species.size(); ++species) {
+      const double volume = species_volume[species][cell];
+      if (!(volume >= 0) || !std::isfinite(volume)) {
+        const Vector3& centre = mesh.cell_centre[cell];
+        throw Failure(ExitCode::diverged,
+                      fmt::format("volume of {} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m is {} m3",
+                                  campaign.species[species].name, cell, centre[0], centre[1], centre[2], volume))
+            .at("cell", std::to_string(cell));
+      }
+      const double diameter = campaign.species[species].diameter;
+      grains.volume += volume;
+      grains.volume_over_diameter += volume / diameter;
+      grains.volume_times_diameter += volume * diameter;
+    }
+    bed.void_fraction[cell] = 1 - grains.volume / mesh.cell_volume[cell];
+    if (bed.void_fraction[cell] < least_void_fraction) {
+      bed.void_fraction[cell] = least_void_fraction;
+      ++bed.cells_at_floor;
+    }
+    if (grains.volume > 0) {
+      bed.grain_diameter[cell] = grains.sauter_diameter();
+      if (campaign.drag == DragLaw::beetstra) bed.polydispersity[cell] = beetstra_polydispersity(grains.mean_size_ratio());
+    }
+  }
+  for (const auto& raceway : campaign.raceways) {
+    for (const auto cell : raceway_cells(mesh, raceway)) {
+      bed.void_fraction[cell] = std::max(bed.void_fraction[cell], raceway.void_fraction);
+    }
+  }
+  return bed;
+}
+
+}  // namespace cupola
