@@ -15,26 +15,6 @@
 namespace cupola {
 namespace {
 
-/// A face of the local mesh: which face of the BedMesh it is, and whether its owner is the owner there.
-struct LocalFace {
-  std::size_t face = 0;
-  bool same_owner = true;
-};
-
-LocalFace find_face(const BedMesh& mesh, std::int64_t cell, const Foam::vector& centre) {
-  LocalFace found;
-  double nearest = std::numeric_limits<double>::max();
-  for (const auto face : mesh.cell_faces[cell]) {
-    const Vector3& other = mesh.face_centre[face];
-    const double distance = std::hypot(other[0] - centre.x(), other[1] - centre.y(), other[2] - centre.z());
-    if (distance < nearest) {
-      nearest = distance;
-      found = {static_cast<std::size_t>(face), mesh.face_owner[face] == cell};
-    }
-  }
-  return found;
-}
-
 double sum_of_magnitudes(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += std::abs(value);
@@ -93,22 +73,12 @@ struct CellEquation::State {
         correction(Foam::IOobject("cellEquationCorrection", foam.mesh().time().timeName(), foam.mesh(), Foam::IOobject::NO_READ,
                                   Foam::IOobject::NO_WRITE, false),
                    foam.mesh(), Foam::dimensionedScalar("zero", Foam::dimless, 0),
-                   Foam::zeroGradientFvPatchScalarField::typeName) {
-    const Foam::fvMesh& local = foam.mesh();
-    const auto& global = foam.global_cell();
-    for (Foam::label face = 0; face < local.nInternalFaces(); ++face) {
-      internal.push_back(find_face(mesh, global[local.faceOwner()[face]], local.faceCentres()[face]));
-    }
-    forAll(local.boundary(), patch) {
-      const auto& fv_patch = local.boundary()[patch];
-      std::vector<LocalFace> faces;
-      if (fv_patch.coupled()) {
-        forAll(fv_patch, face) {
-          faces.push_back(find_face(mesh, global[fv_patch.faceCells()[face]], local.faceCentres()[fv_patch.start() + face]));
-        }
-      }
-      boundary.push_back(std::move(faces));
-    }
+                   Foam::zeroGradientFvPatchScalarField::typeName) {}
+
+  /// Coefficient, in the row of the local owner of a local face, of the value on the other side.
+  [[nodiscard]] double in_owners_row(const CellCoefficients& coefficients, Foam::label face) const {
+    const auto all_faces = static_cast<std::size_t>(foam.global_face()[face]);
+    return (foam.face_sign()[face] > 0 ? coefficients.owner_row : coefficients.neighbour_row)[all_faces];
   }
 
   /// One call of OpenFOAM's solver: an approximate correction for the residual, over all cells.
@@ -119,16 +89,11 @@ struct CellEquation::State {
     const auto diagonal = foam.local(coefficients.diagonal);
     std::copy(diagonal.begin(), diagonal.end(), matrix.diag().begin());
     Foam::scalarField& upper = matrix.upper();
-    forAll(upper, face) {
-      const auto& [number, same] = internal[face];
-      upper[face] = -(same ? coefficients.owner_row : coefficients.neighbour_row)[number];
-    }
+    // Inside a rank OpenFOAM keeps the order of cells, so the owner is the owner.
+    forAll(upper, face) upper[face] = -in_owners_row(coefficients, face);
     if (!coefficients.symmetric) {
       Foam::scalarField& lower = matrix.lower();
-      forAll(lower, face) {
-        const auto& [number, same] = internal[face];
-        lower[face] = -(same ? coefficients.neighbour_row : coefficients.owner_row)[number];
-      }
+      forAll(lower, face) lower[face] = -coefficients.neighbour_row[static_cast<std::size_t>(foam.global_face()[face])];
     }
     // Of a coupled patch the solvers subtract coefficient x value on the other side from A x.
     Foam::FieldField<Foam::Field, Foam::scalar> coupling(local.boundary().size());
@@ -136,12 +101,10 @@ struct CellEquation::State {
     forAll(local.boundary(), patch) {
       coupling.set(patch, new Foam::scalarField(local.boundary()[patch].size(), 0));
       on_diagonal.set(patch, new Foam::scalarField(local.boundary()[patch].size(), 0));
-      for (std::size_t face = 0; face < boundary[patch].size(); ++face) {
-        const auto& [number, same] = boundary[patch][face];
-        // Seen from its own cell: the coefficient of the value beyond the face in this cell's row.
-        coupling[patch][static_cast<Foam::label>(face)] =
-            (same ? coefficients.owner_row : coefficients.neighbour_row)[number];
-        on_diagonal[patch][static_cast<Foam::label>(face)] = coupling[patch][static_cast<Foam::label>(face)];
+      if (!local.boundary()[patch].coupled()) continue;
+      forAll(local.boundary()[patch], face) {
+        coupling[patch][face] = in_owners_row(coefficients, local.boundary()[patch].start() + face);
+        on_diagonal[patch][face] = coupling[patch][face];
       }
     }
     const auto local_residual = foam.local(residual);
@@ -170,8 +133,6 @@ struct CellEquation::State {
   FoamCase& foam;
   const BedMesh& mesh;
   Foam::volScalarField correction;
-  std::vector<LocalFace> internal;
-  std::vector<std::vector<LocalFace>> boundary;  ///< by patch; empty where nothing is coupled
 };
 
 CellEquation::CellEquation(FoamCase& foam, const BedMesh& mesh) : state_(std::make_unique<State>(foam, mesh)) {}
