@@ -21,8 +21,8 @@ double sum_of_magnitudes(const std::vector<double>& values) {
   return sum;
 }
 
-std::vector<double> residual_of(const BedMesh& mesh, const CellCoefficients& coefficients, const std::vector<double>& source,
-                                const std::vector<double>& x) {
+std::vector<double> residual_of(const BedMesh& mesh, const CellCoefficients& coefficients,
+                                const std::vector<double>& source, const std::vector<double>& x) {
   std::vector<double> residual(mesh.cells());
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     residual[cell] = source[cell] - coefficients.diagonal[cell] * x[cell];
@@ -70,8 +70,8 @@ struct CellEquation::State {
   State(FoamCase& foam_case, const BedMesh& bed_mesh)
       : foam(foam_case),
         mesh(bed_mesh),
-        correction(Foam::IOobject("cellEquationCorrection", foam.mesh().time().timeName(), foam.mesh(), Foam::IOobject::NO_READ,
-                                  Foam::IOobject::NO_WRITE, false),
+        correction(Foam::IOobject("cellEquationCorrection", foam.mesh().time().timeName(), foam.mesh(),
+                                  Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false),
                    foam.mesh(), Foam::dimensionedScalar("zero", Foam::dimless, 0),
                    Foam::zeroGradientFvPatchScalarField::typeName) {}
 
@@ -111,11 +111,10 @@ struct CellEquation::State {
     Foam::scalarField source(local.nCells());
     std::copy(local_residual.begin(), local_residual.end(), source.begin());
     correction = Foam::dimensionedScalar("zero", Foam::dimless, 0);
-    const auto performance =
-        Foam::lduMatrix::solver::New(correction.name(), matrix, coupling, on_diagonal,
-                                     correction.boundaryField().scalarInterfaces(),
-                                     solver_controls(coefficients.symmetric, relative_tolerance))
-            ->solve(correction.primitiveFieldRef(), source);
+    const auto performance = Foam::lduMatrix::solver::New(correction.name(), matrix, coupling, on_diagonal,
+                                                          correction.boundaryField().scalarInterfaces(),
+                                                          solver_controls(coefficients.symmetric, relative_tolerance))
+                                 ->solve(correction.primitiveFieldRef(), source);
     cycles += performance.nIterations();
     const auto& values = correction.primitiveField();
     return foam.everywhere(std::vector<double>(values.begin(), values.end()));
@@ -125,8 +124,9 @@ struct CellEquation::State {
     std::size_t cell = 0;
     while (cell + 1 < values.size() && std::isfinite(values[cell])) ++cell;
     const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged, fmt::format("{} became infinite or undefined, first in cell {} at ({:.3f}, {:.3f}, {:.3f}) m",
-                                                  what, cell, centre[0], centre[1], centre[2]))
+    throw Failure(ExitCode::diverged,
+                  fmt::format("{} became infinite or undefined, first in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", what,
+                              cell, centre[0], centre[1], centre[2]))
         .at("cell", std::to_string(cell));
   }
 
@@ -167,8 +167,9 @@ CellEquation::Result CellEquation::solve(const std::string& what, const CellCoef
     if (stagnant) break;
   }
   if (result.residual > acceptable) {
-    throw Failure(ExitCode::diverged, fmt::format("{} could not be solved: residual {:.3g} of {:.3g} allowed after {} cycles", what,
-                                                  result.residual, acceptable, result.cycles))
+    throw Failure(ExitCode::diverged,
+                  fmt::format("{} could not be solved: residual {:.3g} of {:.3g} allowed after {} cycles", what,
+                              result.residual, acceptable, result.cycles))
         .advise("scene.mesh.cell", "a mesh with less stretched cells");
   }
   return result;

@@ -20,8 +20,8 @@ std::array<double, 6> inverse(const std::array<double, 6>& m) {
   const double cofactor_xy = xz * yz - xy * zz;
   const double cofactor_xz = xy * yz - xz * yy;
   const double determinant = xx * cofactor_xx + xy * cofactor_xy + xz * cofactor_xz;
-  return {cofactor_xx / determinant,           cofactor_xy / determinant,           cofactor_xz / determinant,
-          (xx * zz - xz * xz) / determinant,   (xy * xz - xx * yz) / determinant,   (xx * yy - xy * xy) / determinant};
+  return {cofactor_xx / determinant,         cofactor_xy / determinant,         cofactor_xz / determinant,
+          (xx * zz - xz * xz) / determinant, (xy * xz - xx * yz) / determinant, (xx * yy - xy * xy) / determinant};
 }
 
 }  // namespace

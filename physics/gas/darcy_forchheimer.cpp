@@ -25,9 +25,9 @@ double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
 
 /// Tangent of the drag law in one cell, in terms of psi: -grad psi = (value + slope (|G| - speed)) G.
 struct Resistance {
-  double value = 0;   ///< 1/s
-  double slope = 0;   ///< m2/kg
-  double speed = 0;   ///< |G| where the tangent touches, kg/m2/s
+  double value = 0;  ///< 1/s
+  double slope = 0;  ///< m2/kg
+  double speed = 0;  ///< |G| where the tangent touches, kg/m2/s
 };
 
 }  // namespace
@@ -70,8 +70,8 @@ struct DarcyForchheimer::State {
 
   [[noreturn]] void diverged(const std::string& sentence, std::size_t cell) const {
     const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell, centre[0],
-                                                  centre[1], centre[2]))
+    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell,
+                                                  centre[0], centre[1], centre[2]))
         .at("cell", std::to_string(cell));
   }
 
@@ -95,7 +95,8 @@ struct DarcyForchheimer::State {
       // The laws depend on density x speed only, so a density of 1 turns the speed into the mass flux.
       const auto law = [&](double flux) {
         return specific_gas_constant * gas_temperature[cell] *
-               drag_resistance(drag, void_fraction, bed.grain_diameter[cell], gas.viscosity, 1, flux, bed.polydispersity[cell]);
+               drag_resistance(drag, void_fraction, bed.grain_diameter[cell], gas.viscosity, 1, flux,
+                               bed.polydispersity[cell]);
       };
       const double step = 1e-3 * std::max(r.speed, 1e-3 * usual_flux);
       r.value = law(r.speed);
@@ -103,12 +104,14 @@ struct DarcyForchheimer::State {
       sum += r.value * mesh.cell_volume[cell];
       volume += mesh.cell_volume[cell];
     }
-    if (volume == 0) throw Failure(ExitCode::diverged, "no solids left in any cell: the gas has nothing to flow through");
+    if (volume == 0)
+      throw Failure(ExitCode::diverged, "no solids left in any cell: the gas has nothing to flow through");
     least_resistance = least_relative_resistance * sum / volume;
   }
 
-  /// Resistance on the cell's side of a face with the normal mass flux `normal_flux`, and its derivative by it times it:
-  /// the normal flux is the face's, the tangential one the cell's (it jumps from layer to layer, the normal one does not).
+  /// Resistance on the cell's side of a face with the normal mass flux `normal_flux`, and its derivative by it times
+  /// it: the normal flux is the face's, the tangential one the cell's (it jumps from layer to layer, the normal one
+  /// does not).
   [[nodiscard]] std::pair<double, double> at_face(std::int64_t cell, std::size_t face, double normal_flux) const {
     const Resistance& r = resistance[cell];
     double speed = r.speed;
@@ -127,7 +130,8 @@ struct DarcyForchheimer::State {
   /// psi at the face as seen from one of its cells, from the cell's own law.
   [[nodiscard]] double psi_from(std::int64_t cell, const Vector3& offset, double normal_drop) const {
     const Vector3& g = mass_flux[cell];
-    return start.squared_pressure[cell] - std::max(resistance[cell].value, least_resistance) * dot(g, offset) - normal_drop;
+    return start.squared_pressure[cell] - std::max(resistance[cell].value, least_resistance) * dot(g, offset) -
+           normal_drop;
   }
 
   /// One Newton step: the linearised law of every face,
@@ -173,8 +177,10 @@ struct DarcyForchheimer::State {
     auto source = FaceGeometry::outflow(mesh, fixed);
     for (double& value : source) value = -value;
     auto psi = start.squared_pressure;
-    result.cycles += equation.solve("gas pressure", coefficients, source, psi, mass_tolerance * blast,
-                                    acceptable_mass_residual * blast).cycles;
+    result.cycles +=
+        equation
+            .solve("gas pressure", coefficients, source, psi, mass_tolerance * blast, acceptable_mass_residual * blast)
+            .cycles;
 
     std::vector<double> flux(faces);
     double changed = 0, all = 0;
@@ -224,7 +230,8 @@ struct DarcyForchheimer::State {
       if (is_outlet[face]) {
         psi = 0;
       } else if (neighbour >= 0) {
-        const double drop = geometry.neighbour_distance[face] * at_face(neighbour, face, normal_flux).first * normal_flux;
+        const double drop =
+            geometry.neighbour_distance[face] * at_face(neighbour, face, normal_flux).first * normal_flux;
         psi = (psi + psi_from(neighbour, geometry.neighbour_offset[face], -drop)) / 2;
       }
       face_pressure[face] = std::sqrt(2 * std::max(0.0, psi + psi_outlet));
@@ -245,7 +252,8 @@ struct DarcyForchheimer::State {
   void set_inertia() {
     std::vector<Vector3> velocity(mesh.cells());
     for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-      const double density_of_bed = gas_density(pressure[cell], temperature[cell], gas.molar_mass) * void_fraction[cell];
+      const double density_of_bed =
+          gas_density(pressure[cell], temperature[cell], gas.molar_mass) * void_fraction[cell];
       for (std::size_t axis = 0; axis < 3; ++axis) velocity[cell][axis] = mass_flux[cell][axis] / density_of_bed;
     }
     std::vector<Vector3> force(mesh.cells(), Vector3{0, 0, 0});
@@ -282,11 +290,11 @@ struct DarcyForchheimer::State {
 
   std::vector<double> boundary_flux;  ///< kg/s out of the owner, inlets; 0 elsewhere
   std::vector<bool> is_outlet;
-  double blast = 0;                   ///< kg/s
-  double usual_flux = 0;              ///< kg/m2/s, blast over the outlet's area
-  double psi_outlet = 0;              ///< Pa2
+  double blast = 0;       ///< kg/s
+  double usual_flux = 0;  ///< kg/m2/s, blast over the outlet's area
+  double psi_outlet = 0;  ///< Pa2
 
-  bool cold = true;                   ///< no mass fluxes known yet
+  bool cold = true;  ///< no mass fluxes known yet
   WarmStart start;
   std::vector<Vector3> mass_flux;
   std::vector<Resistance> resistance;

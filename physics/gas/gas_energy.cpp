@@ -24,7 +24,10 @@ constexpr double acceptable_balance = 1e-8;
 
 struct GasEnergy::State {
   State(FoamCase& foam, const BedMesh& bed_mesh, const Campaign& campaign)
-      : mesh(bed_mesh), geometry(bed_mesh), equation(foam, bed_mesh), gas(*campaign.scene.gas),
+      : mesh(bed_mesh),
+        geometry(bed_mesh),
+        equation(foam, bed_mesh),
+        gas(*campaign.scene.gas),
         heat_loss(campaign.scene.heat_loss) {
     conductivity = gas_conductivity(gas.viscosity, gas.heat_capacity, gas.prandtl);
     inlet_temperature.assign(mesh.faces(), 0);
@@ -35,7 +38,8 @@ struct GasEnergy::State {
         throw Failure(ExitCode::wrong_input, fmt::format("the mesh does not hold the inlet '{}'", inlet.name))
             .at("key", "scene.gas.inlets");
       }
-      std::fill_n(inlet_temperature.begin() + patch->first_face, patch->faces, inlet.total_temperature - reference_temperature);
+      std::fill_n(inlet_temperature.begin() + patch->first_face, patch->faces,
+                  inlet.total_temperature - reference_temperature);
       flow += inlet.mass_flow;
       enthalpy += inlet.mass_flow * inlet.total_temperature;
     }
@@ -44,8 +48,8 @@ struct GasEnergy::State {
 
   void diverged(const std::string& sentence, std::size_t cell) const {
     const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell, centre[0],
-                                                  centre[1], centre[2]))
+    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell,
+                                                  centre[0], centre[1], centre[2]))
         .at("cell", std::to_string(cell));
   }
 
@@ -54,9 +58,9 @@ struct GasEnergy::State {
   CellEquation equation;
   Gas gas;
   std::optional<WallHeatLoss> heat_loss;
-  double conductivity = 0;                  ///< of the gas, W/m/K
-  std::vector<double> inlet_temperature;    ///< K above the reference, on the inlets' faces
-  std::vector<double> temperature;          ///< K
+  double conductivity = 0;                ///< of the gas, W/m/K
+  std::vector<double> inlet_temperature;  ///< K above the reference, on the inlets' faces
+  std::vector<double> temperature;        ///< K
   Ledger ledger;
 };
 
@@ -64,7 +68,8 @@ GasEnergy::GasEnergy(FoamCase& foam, const BedMesh& mesh, const Campaign& campai
     : state_(std::make_unique<State>(foam, mesh, campaign)) {}
 GasEnergy::~GasEnergy() = default;
 
-const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const BedState& bed, const SolidsExchange& exchange) {
+const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const BedState& bed,
+                                            const SolidsExchange& exchange) {
   State& state = *state_;
   const BedMesh& mesh = state.mesh;
   const FaceGeometry& geometry = state.geometry;
@@ -85,8 +90,9 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     source[cell] = exchange.conductance_temperature[cell] - exchange.conductance[cell] * reference_temperature;
   }
-  // What the gas brings into a cell counts against the cell's own temperature, so that every off-diagonal coefficient is an inflow, no
-  // temperature can leave the range of its neighbours', and gas flowing back through the outlet has the cell's own temperature.
+  // What the gas brings into a cell counts against the cell's own temperature, so that every off-diagonal coefficient
+  // is an inflow, no temperature can leave the range of its neighbours', and gas flowing back through the outlet has
+  // the cell's own temperature.
   for (std::size_t face = 0; face < mesh.faces(); ++face) {
     const auto owner = mesh.face_owner[face];
     const auto neighbour = mesh.face_neighbour[face];
@@ -120,13 +126,15 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
     }
   }
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-    if (!(coefficients.diagonal[cell] > 0)) state.diverged("no gas, conduction or solids reach a cell: its temperature is open", cell);
+    if (!(coefficients.diagonal[cell] > 0))
+      state.diverged("no gas, conduction or solids reach a cell: its temperature is open", cell);
   }
 
   auto& temperature = state.temperature;
   for (double& value : temperature) value -= reference_temperature;
   const double scale = std::abs(ledger.blast) + exchanged;
-  state.equation.solve("gas temperature", coefficients, source, temperature, balance_tolerance * scale, acceptable_balance * scale);
+  state.equation.solve("gas temperature", coefficients, source, temperature, balance_tolerance * scale,
+                       acceptable_balance * scale);
 
   double outflow = 0;
   for (const auto& patch : mesh.patches) {

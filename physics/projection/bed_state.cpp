@@ -13,9 +13,9 @@ namespace {
 
 /// Moments of the grains in one cell that the drag laws ask for.
 struct Grains {
-  double volume = 0;                    // m3
-  double volume_over_diameter = 0;      // m2
-  double volume_times_diameter = 0;     // m4
+  double volume = 0;                 // m3
+  double volume_over_diameter = 0;   // m2
+  double volume_times_diameter = 0;  // m4
 
   [[nodiscard]] double sauter_diameter() const { return volume / volume_over_diameter; }
   [[nodiscard]] double mean_size_ratio() const { return volume_times_diameter / volume / sauter_diameter(); }
@@ -36,7 +36,8 @@ std::vector<std::int64_t> raceway_cells(const BedMesh& mesh, const Raceway& race
   return cells;
 }
 
-BedState bed_state(const BedMesh& mesh, const Campaign& campaign, const std::vector<std::vector<double>>& species_volume) {
+BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
+                   const std::vector<std::vector<double>>& species_volume) {
   double largest_diameter = 0;
   for (const auto& species : campaign.species) largest_diameter = std::max(largest_diameter, species.diameter);
 
@@ -67,7 +68,8 @@ BedState bed_state(const BedMesh& mesh, const Campaign& campaign, const std::vec
     }
     if (grains.volume > 0) {
       bed.grain_diameter[cell] = grains.sauter_diameter();
-      if (campaign.drag == DragLaw::beetstra) bed.polydispersity[cell] = beetstra_polydispersity(grains.mean_size_ratio());
+      if (campaign.drag == DragLaw::beetstra)
+        bed.polydispersity[cell] = beetstra_polydispersity(grains.mean_size_ratio());
     }
   }
   for (const auto& raceway : campaign.raceways) {

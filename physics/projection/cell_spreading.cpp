@@ -21,7 +21,8 @@ CellSpreading::CellSpreading(const BedMesh& mesh, const std::vector<bool>& confi
     // Of a periodic pair of faces one is enough.
     const auto partner = mesh.face_partner[face];
     if (partner >= 0 && partner < static_cast<std::int64_t>(face)) continue;
-    const double conductance = geometry.area[face] / (geometry.owner_distance[face] + geometry.neighbour_distance[face]);
+    const double conductance =
+        geometry.area[face] / (geometry.owner_distance[face] + geometry.neighbour_distance[face]);
     exchanges_.push_back({owner, neighbour, conductance});
     sum[owner] += conductance;
     sum[neighbour] += conductance;

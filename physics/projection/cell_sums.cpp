@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t directions_count = 14;
 constexpr std::size_t points_count = 1 + 2 * directions_count;
 
-/// Satellite points on the unit sphere: the volume is cut into a core and two shells so that each of the 29 points stands for the same
-/// volume; the points of a shell lie where its second moment asks for, so that the points have the sphere's own variance, R^2/5 an axis.
+/// Satellite points on the unit sphere: the volume is cut into a core and two shells so that each of the 29 points
+/// stands for the same volume; the points of a shell lie where its second moment asks for, so that the points have the
+/// sphere's own variance, R^2/5 an axis.
 std::array<Vector3, points_count> satellite_points() {
   const double n = points_count;
   const double inner = std::cbrt(1 / n);
@@ -29,7 +30,8 @@ std::array<Vector3, points_count> satellite_points() {
     }
     const double side = radius / std::sqrt(3.0);
     for (int corner = 0; corner < 8; ++corner) {
-      points[next++] = {(corner & 1) != 0 ? side : -side, (corner & 2) != 0 ? side : -side, (corner & 4) != 0 ? side : -side};
+      points[next++] = {(corner & 1) != 0 ? side : -side, (corner & 2) != 0 ? side : -side,
+                        (corner & 4) != 0 ? side : -side};
     }
   }
   return points;
@@ -52,7 +54,8 @@ std::size_t divide_parcel(const CellLocator& locator, const Vector3& centre, dou
   counts[0] = 1;
   for (std::size_t point = 1; point < points_count; ++point) {
     const Vector3& offset = points[point];
-    auto cell = locator.find({centre[0] + radius * offset[0], centre[1] + radius * offset[1], centre[2] + radius * offset[2]}, home);
+    auto cell = locator.find(
+        {centre[0] + radius * offset[0], centre[1] + radius * offset[1], centre[2] + radius * offset[2]}, home);
     if (cell < 0) cell = home;
     std::size_t place = 0;
     while (place < different && cells[place] != cell) ++place;

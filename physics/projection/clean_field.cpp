@@ -13,7 +13,8 @@
 namespace cupola {
 namespace {
 
-/// Speed that even a cell at rest lends to the weight of a face's correction, over the mean speed: keeps the equation regular.
+/// Speed that even a cell at rest lends to the weight of a face's correction, over the mean speed: keeps the equation
+/// regular.
 constexpr double least_relative_speed = 1e-3;
 /// The projected field's divergence is right to this share of the total sink.
 constexpr double projection_tolerance = 1e-12;
@@ -23,7 +24,8 @@ double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
 
 class Cleaning {
  public:
-  Cleaning(const BedMesh& bed_mesh, const RawGranularField& raw_field) : mesh(bed_mesh), raw(raw_field), geometry(bed_mesh) {
+  Cleaning(const BedMesh& bed_mesh, const RawGranularField& raw_field)
+      : mesh(bed_mesh), raw(raw_field), geometry(bed_mesh) {
     sink.resize(mesh.cells());
     double total = 0;
     for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
@@ -45,8 +47,8 @@ class Cleaning {
     }
   }
 
-  /// Conservative exchange between neighbouring bed cells: each pass moves a twelfth of the smaller volume's share through a face, so
-  /// that the sum of volume x flux stays and a uniform field stays as it is.
+  /// Conservative exchange between neighbouring bed cells: each pass moves a twelfth of the smaller volume's share
+  /// through a face, so that the sum of volume x flux stays and a uniform field stays as it is.
   void smooth() {
     std::vector<Vector3> before;
     for (int pass = 0; pass < raw.smoothing_passes; ++pass) {
@@ -73,8 +75,10 @@ class Cleaning {
       const Vector3& centre = mesh.cell_centre[cell];
       const auto image = locator.find({-centre[0], centre[1], centre[2]});
       const double size = std::cbrt(mesh.cell_volume[cell]);
-      if (image < 0 || std::abs(mesh.cell_centre[image][0] + centre[0]) > 0.01 * size || raw.bed[image] != raw.bed[cell]) {
-        throw Failure(ExitCode::wrong_input, "the mesh is not its own mirror image in x: clean the granular field without mirror symmetry");
+      if (image < 0 || std::abs(mesh.cell_centre[image][0] + centre[0]) > 0.01 * size ||
+          raw.bed[image] != raw.bed[cell]) {
+        throw Failure(ExitCode::wrong_input,
+                      "the mesh is not its own mirror image in x: clean the granular field without mirror symmetry");
       }
       flux[cell] = {(before[cell][0] - before[image][0]) / 2, (before[cell][1] + before[image][1]) / 2,
                     (before[cell][2] + before[image][2]) / 2};
@@ -92,7 +96,8 @@ class Cleaning {
         const double before = geometry.owner_distance[face], beyond = geometry.neighbour_distance[face];
         const Vector3& here = field[owner];
         const Vector3& there = field[mesh.face_neighbour[face]];
-        face_flux[face] = (beyond * dot(here, mesh.face_area[face]) + before * dot(there, mesh.face_area[face])) / (before + beyond);
+        face_flux[face] =
+            (beyond * dot(here, mesh.face_area[face]) + before * dot(there, mesh.face_area[face])) / (before + beyond);
       } else if (in_stock_plane(face)) {
         const bool owner_in_bed = raw.bed[owner];
         const auto cell = owner_in_bed ? owner : mesh.face_neighbour[face];
@@ -103,7 +108,9 @@ class Cleaning {
         plane.push_back(face);
       }
     }
-    if (plane.empty()) throw Failure(ExitCode::wrong_input, "no face of the mesh lies in the stock plane").at("key", "charging.stock_line");
+    if (plane.empty())
+      throw Failure(ExitCode::wrong_input, "no face of the mesh lies in the stock plane")
+          .at("key", "charging.stock_line");
     for (const auto face : plane) {
       const double share = inflow > 0 ? face_flux[face] / inflow : geometry.area[face] / plane_area;
       const double out_of_owner = raw.bed[mesh.face_owner[face]] ? -1 : 1;
@@ -159,7 +166,8 @@ class Cleaning {
                    acceptable_projection * scale);
     for (std::size_t face = 0; face < mesh.faces(); ++face) {
       if (!inside(face)) continue;
-      face_flux[face] += coefficients.owner_row[face] * (potential[mesh.face_owner[face]] - potential[mesh.face_neighbour[face]]);
+      face_flux[face] +=
+          coefficients.owner_row[face] * (potential[mesh.face_owner[face]] - potential[mesh.face_neighbour[face]]);
     }
   }
 
@@ -192,8 +200,8 @@ class Cleaning {
     return all > 0 ? std::sqrt(changed / all) : 0;
   }
 
-  std::vector<Vector3> flux;       ///< in cells, m/s
-  std::vector<double> face_flux;   ///< m3/s out of the owner
+  std::vector<Vector3> flux;      ///< in cells, m/s
+  std::vector<double> face_flux;  ///< m3/s out of the owner
 
  private:
   /// Between two cells of the bed.
@@ -210,22 +218,24 @@ class Cleaning {
     if (neighbour >= 0) return owner_in_bed != raw.bed[neighbour];
     const auto* outlet = mesh.find_patch("outlet");
     const auto number = static_cast<std::int64_t>(face);
-    return owner_in_bed && outlet != nullptr && number >= outlet->first_face && number < outlet->first_face + outlet->faces;
+    return owner_in_bed && outlet != nullptr && number >= outlet->first_face &&
+           number < outlet->first_face + outlet->faces;
   }
 
   const BedMesh& mesh;
   const RawGranularField& raw;
   FaceGeometry geometry;
-  std::vector<double> sink;        ///< m3/s a cell, storage included
-  double total_sink = 0;           ///< m3/s
-  double flux_scale = 0;           ///< m3/s, sum of the sinks' magnitudes
+  std::vector<double> sink;  ///< m3/s a cell, storage included
+  double total_sink = 0;     ///< m3/s
+  double flux_scale = 0;     ///< m3/s, sum of the sinks' magnitudes
 };
 
 }  // namespace
 
 CleanGranularField clean_granular_field(FoamCase& foam, const BedMesh& mesh, const RawGranularField& raw) {
   if (std::find(raw.bed.begin(), raw.bed.end(), true) == raw.bed.end()) {
-    throw Failure(ExitCode::wrong_input, "no cell of the mesh lies below the stock line").at("key", "charging.stock_line");
+    throw Failure(ExitCode::wrong_input, "no cell of the mesh lies below the stock line")
+        .at("key", "charging.stock_line");
   }
   CleanGranularField result;
   Cleaning cleaning(mesh, raw);

@@ -14,7 +14,8 @@ Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Corners of a reference cube's faces xi-, xi+, eta-, eta+, zeta-, zeta+, in order so that their normal points outwards.
+/// Corners of a reference cube's faces xi-, xi+, eta-, eta+, zeta-, zeta+, in order so that their normal points
+/// outwards.
 constexpr std::array<std::array<int, 4>, 6> face_corners{
     {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};
 
@@ -32,15 +33,19 @@ BedMesh BoxMesh::make() const {
   for (std::int64_t k = 0; k <= nz; ++k) {
     for (std::int64_t j = 0; j <= ny; ++j) {
       for (std::int64_t i = 0; i <= nx; ++i) {
-        const Vector3 share{static_cast<double>(i) / static_cast<double>(nx), static_cast<double>(j) / static_cast<double>(ny),
+        const Vector3 share{static_cast<double>(i) / static_cast<double>(nx),
+                            static_cast<double>(j) / static_cast<double>(ny),
                             static_cast<double>(k) / static_cast<double>(nz)};
         Vector3 point{};
-        for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = lower[axis] + share[axis] * (upper[axis] - lower[axis]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          point[axis] = lower[axis] + share[axis] * (upper[axis] - lower[axis]);
         mesh.points.push_back(deform(point));
       }
     }
   }
-  const auto point_number = [&](std::int64_t i, std::int64_t j, std::int64_t k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
+  const auto point_number = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    return (k * (ny + 1) + j) * (nx + 1) + i;
+  };
   const auto cell_number = [&](std::int64_t i, std::int64_t j, std::int64_t k) { return (k * ny + j) * nx + i; };
   for (std::int64_t k = 0; k < nz; ++k) {
     for (std::int64_t j = 0; j < ny; ++j) {
@@ -58,8 +63,10 @@ BedMesh BoxMesh::make() const {
   const auto add_face = [&](std::int64_t owner, int side, std::int64_t neighbour) {
     const auto face = static_cast<std::int64_t>(mesh.face_owner.size());
     std::array<std::int64_t, 4> corners{};
-    for (std::size_t corner = 0; corner < 4; ++corner) corners[corner] = mesh.cell_points[owner][face_corners[side][corner]];
-    const Vector3 &a = mesh.points[corners[0]], &b = mesh.points[corners[1]], &c = mesh.points[corners[2]], &d = mesh.points[corners[3]];
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      corners[corner] = mesh.cell_points[owner][face_corners[side][corner]];
+    const Vector3 &a = mesh.points[corners[0]], &b = mesh.points[corners[1]], &c = mesh.points[corners[2]],
+                  &d = mesh.points[corners[3]];
     const Vector3 first = 0.5 * cross(b - a, c - a), second = 0.5 * cross(c - a, d - a);
     const Vector3 area = first + second;
     const double first_share = dot(first, area) / dot(area, area);
@@ -78,7 +85,8 @@ BedMesh BoxMesh::make() const {
     for (std::int64_t j = 0; j < ny; ++j) {
       for (std::int64_t i = 0; i < nx; ++i) {
         const auto cell = cell_number(i, j, k);
-        const std::array<std::int64_t, 3> next{i + 1 < nx ? cell_number(i + 1, j, k) : -1, j + 1 < ny ? cell_number(i, j + 1, k) : -1,
+        const std::array<std::int64_t, 3> next{i + 1 < nx ? cell_number(i + 1, j, k) : -1,
+                                               j + 1 < ny ? cell_number(i, j + 1, k) : -1,
                                                k + 1 < nz ? cell_number(i, j, k + 1) : -1};
         for (int axis = 0; axis < 3; ++axis) {
           if (next[axis] < 0) {
