@@ -31,3 +31,12 @@ function(cupola_test name)
   target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   gtest_discover_tests(${name} TEST_PREFIX "${name}." PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
+
+# cupola_mpi_test(NAME LABEL label RANKS n PROGRAM target ARGUMENTS ...): a program of ours under mpirun.
+function(cupola_mpi_test name)
+  cmake_parse_arguments(TEST "" "LABEL;RANKS;PROGRAM" "ARGUMENTS" ${ARGN})
+  add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --bind-to none -n ${TEST_RANKS}
+                                $<TARGET_FILE:${TEST_PROGRAM}> ${TEST_ARGUMENTS})
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT 600 PROCESSORS ${TEST_RANKS}
+                       ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1")
+endfunction()
