@@ -1,5 +1,6 @@
 #include "physics/plan/charge.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace cupola {
@@ -8,6 +9,13 @@ double Charge::total_mass_rate() const { return std::accumulate(mass_rate.begin(
 
 double slot_area(const Campaign& campaign, double z) {
   return 2 * campaign.half_width(z) * campaign.scene.geometry.depth;
+}
+
+bool charged_in_layers(const Campaign& campaign) {
+  const auto& layers = campaign.charging.layers;
+  return std::all_of(layers.begin(), layers.end(), [](const Layer& layer) {
+    return std::count_if(layer.begin(), layer.end(), [](const auto& part) { return part.second > 0; }) == 1;
+  });
 }
 
 Charge charge_of(const Campaign& campaign, double packing) {

@@ -32,6 +32,9 @@ Charge charge_of(const Campaign& campaign, double packing = expected_packing);
 /// the raceways (those that never melt); 0 without raceways or such species.
 double dem_speed_up(const Campaign& campaign, const Charge& charge);
 
+/// Every layer of the recipe holds one species only, so that ore and coke lie in layers of their own.
+bool charged_in_layers(const Campaign& campaign);
+
 /// Horizontal area of the slot at a height, m2.
 double slot_area(const Campaign& campaign, double z);
 

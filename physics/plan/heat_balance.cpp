@@ -21,14 +21,6 @@ double wall_perimeter(const Campaign& campaign, double z) {
   return geometry.sides == Geometry::Sides::walls ? sides + 4 * campaign.half_width(z) : sides;
 }
 
-/// Each species has layers of its own.
-bool in_layers(const Campaign& campaign) {
-  const auto& layers = campaign.charging.layers;
-  return std::all_of(layers.begin(), layers.end(), [](const Layer& layer) {
-    return std::count_if(layer.begin(), layer.end(), [](const auto& part) { return part.second > 0; }) == 1;
-  });
-}
-
 /// The campaign's exchange at a height of the bed.
 class CampaignExchange {
  public:
@@ -63,7 +55,7 @@ class CampaignExchange {
 
  private:
   [[nodiscard]] double layers(double area) const {
-    if (!in_layers(campaign_)) return 0;
+    if (!charged_in_layers(campaign_)) return 0;
     const double stretch = charge_.area / area;
     const auto conductivity = [&](std::size_t i) {
       return bed_conductivity_carson(campaign_.species[i].conductivity, charge_.packing);

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+
+#include "physics/plan/dem_time_step.hpp"
+#include "schemas/campaign.hpp"
+
+namespace cupola {
+
+/// Measured rates the estimate rests on (docs/models.md says where they come from).
+inline constexpr double dem_parcel_steps_per_core_second = 2.1e6;
+inline constexpr double core_seconds_per_tracer_step = 3e-7;
+inline constexpr double core_seconds_per_gas_solution_of_a_cell = 1e-5;
+
+/// Expected work of one episode; the filling and settling of the first bed is not in it.
+struct Cost {
+  double dem_process_seconds = 0;  ///< simulated, at most
+  double dem_steps = 0;
+  double dem_core_seconds = 0;  ///< contacts and, where gas is on, one gas solution a block
+  double tracers = 0;
+  double tracer_time_step = 0;  ///< s
+  double tracer_steps = 0;
+  double tracer_core_seconds = 0;  ///< motion, heat and one gas solution a step
+  int ranks = 1;
+  [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / ranks; }
+};
+
+Cost expected_cost(const Campaign& campaign, const DemTimeStep& dem_step, double parcels, std::size_t cells);
+
+}  // namespace cupola

@@ -1,0 +1,71 @@
+#include "physics/plan/physics_pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics/closures/drag.hpp"
+
+namespace cupola {
+
+std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
+  const bool gas = campaign.scene.gas.has_value();
+  const bool heat = campaign.heat.has_value();
+  const bool dem_gas = gas && campaign.dem.gas != DemSettings::GasModel::none;
+  const bool tracer_gas = gas && campaign.tracer.gas != TracerSettings::GasModel::none;
+  const bool layered = charged_in_layers(campaign) && campaign.species.size() > 1;
+  const bool softens = std::any_of(campaign.species.begin(), campaign.species.end(),
+                                   [](const Species& species) { return species.softening.has_value(); });
+  const bool coarse = std::any_of(campaign.species.begin(), campaign.species.end(),
+                                  [](const Species& species) { return species.coarse_graining != 1; });
+  const char* no_gas = "the scene has no gas (scene.gas)";
+  const char* cold = "the scene is cold (no heat section)";
+
+  std::vector<PhysicsPiece> pieces;
+  const auto piece = [&](std::string name, bool on, std::string why) {
+    pieces.push_back({std::move(name), on, std::move(why)});
+  };
+  piece("contacts", true,
+        campaign.contacts.model == Contacts::Model::hertz ? "Hertz with tangential history"
+                                                          : "linear spring with tangential history");
+  piece("coarse graining", coarse,
+        coarse ? "parcels stand for several grains (species.coarse_graining)" : "every grain is a parcel");
+  piece("gas in the DEM stage", dem_gas,
+        dem_gas ? fmt::format("quasi-steady, {} drag, one solution a block", drag_law_name(campaign.drag))
+                : (gas ? "dem.gas is none" : no_gas));
+  piece("gas in the tracer stage", tracer_gas,
+        tracer_gas ? fmt::format("Darcy-Forchheimer, {} drag", drag_law_name(campaign.drag))
+                   : (gas ? "tracer.gas is none" : no_gas));
+  piece("heat between gas and solids", heat && tracer_gas,
+        heat ? (tracer_gas ? fmt::format("Ranz-Marshall x {}", campaign.heat->nusselt_factor)
+                           : "no gas in the tracer stage")
+             : cold);
+  piece("gas conduction", heat && tracer_gas,
+        heat ? (tracer_gas ? "Syamlal-Gidaspow" : "no gas in the tracer stage") : cold);
+  piece("conduction within a species", heat, heat ? "Carson" : cold);
+  piece("exchange between layers", heat && layered,
+        !heat ? cold : (layered ? "layers of different species touch" : "no layers of single species"));
+  const bool loss = heat && campaign.scene.heat_loss.has_value();
+  piece("wall heat loss", loss,
+        !heat ? cold
+              : (loss ? fmt::format("{} W/m2/K to {} K", campaign.scene.heat_loss->coefficient,
+                                    campaign.scene.heat_loss->ambient)
+                      : "scene.walls.heat_loss is absent"));
+  piece("softening and melting", heat && softens,
+        !heat ? cold : (softens ? "a species softens (species.softening)" : "no species softens"));
+  piece(
+      "raceways", !campaign.raceways.empty(),
+      campaign.raceways.empty() ? "none given" : fmt::format("{} boxes that take coke away", campaign.raceways.size()));
+  const bool periodic = campaign.scene.geometry.sides == Geometry::Sides::periodic;
+  piece("periodic front and back", periodic, periodic ? "scene.geometry.slot.sides" : "front and back are walls");
+  piece("cleaned granular field", campaign.tracer.clean_field,
+        campaign.tracer.clean_field
+            ? fmt::format("{} smoothing passes and a projection", campaign.tracer.smoothing_passes)
+            : "tracer.clean_field is off");
+  const bool random = campaign.tracer.displacement == TracerSettings::Displacement::random;
+  piece("random displacement of tracers", random,
+        random ? "tracer.displacement" : "the cleaned field keeps the packing by itself");
+  return pieces;
+}
+
+}  // namespace cupola
