@@ -10,6 +10,8 @@ Cost expected_cost(const Campaign& campaign, const DemTimeStep& dem_step, double
   const bool gas = campaign.scene.gas.has_value();
   Cost cost;
   cost.ranks = std::max(1, campaign.launch.ranks);
+  cost.most_episodes = campaign.converged.at_most;
+  cost.fewest_episodes = std::min(cost.most_episodes, 2 + std::max(1, campaign.converged.for_episodes));
   cost.dem_process_seconds = campaign.dem.at_most;
   cost.dem_steps = std::ceil(cost.dem_process_seconds / dem_step.step);
   cost.dem_core_seconds = cost.dem_steps * parcels / dem_parcel_steps_per_core_second;

@@ -21,6 +21,7 @@ struct Cost {
   double tracer_steps = 0;
   double tracer_core_seconds = 0;  ///< motion, heat and one gas solution a step
   int ranks = 1;
+  int fewest_episodes = 0, most_episodes = 0;  ///< a remaining change can be extrapolated from the third episode on
   [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / ranks; }
 };
 

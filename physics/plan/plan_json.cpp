@@ -99,10 +99,16 @@ nlohmann::json plan_json(const Plan& plan) {
                              {"reference", plan.dem_step.reference},
                              {"reference_name", plan.dem_step.reference_name},
                              {"fraction", plan.dem_step.fraction()}};
-  result["cost"] = {{"dem_process_seconds", plan.cost.dem_process_seconds},    {"dem_steps", plan.cost.dem_steps},
-                    {"dem_core_seconds", plan.cost.dem_core_seconds},          {"tracers", plan.cost.tracers},
-                    {"tracer_time_step", plan.cost.tracer_time_step},          {"tracer_steps", plan.cost.tracer_steps},
-                    {"tracer_core_seconds", plan.cost.tracer_core_seconds},    {"ranks", plan.cost.ranks},
+  result["cost"] = {{"dem_process_seconds", plan.cost.dem_process_seconds},
+                    {"dem_steps", plan.cost.dem_steps},
+                    {"dem_core_seconds", plan.cost.dem_core_seconds},
+                    {"tracers", plan.cost.tracers},
+                    {"tracer_time_step", plan.cost.tracer_time_step},
+                    {"tracer_steps", plan.cost.tracer_steps},
+                    {"tracer_core_seconds", plan.cost.tracer_core_seconds},
+                    {"ranks", plan.cost.ranks},
+                    {"fewest_episodes", plan.cost.fewest_episodes},
+                    {"most_episodes", plan.cost.most_episodes},
                     {"episode_wall_seconds", plan.cost.episode_wall_seconds()}};
   result["warnings"] = plan.warnings;
   result["refusals"] = plan.refusals;

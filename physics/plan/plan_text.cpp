@@ -103,6 +103,9 @@ void write_cost(Text& text, const Plan& plan) {
        cost.tracer_time_step, duration(cost.tracer_core_seconds / cost.ranks));
   line(text, "  an episode takes about {} on {} rank(s), the first longer: its bed has to be filled",
        duration(cost.episode_wall_seconds()), cost.ranks);
+  line(text, "  {} to {} episodes: {} to {}", cost.fewest_episodes, cost.most_episodes,
+       duration(cost.fewest_episodes * cost.episode_wall_seconds()),
+       duration(cost.most_episodes * cost.episode_wall_seconds()));
   line(text, "  (from {:.2g} parcel steps, {:.2g} tracer steps, {:.2g} cells of gas a core second)",
        dem_parcel_steps_per_core_second, 1 / core_seconds_per_tracer_step, 1 / core_seconds_per_gas_solution_of_a_cell);
 }
