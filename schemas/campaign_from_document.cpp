@@ -87,6 +87,7 @@ class Section {
 
 Geometry read_geometry(const Section& section) {
   Geometry geometry;
+  geometry.depth = unknown;
   if (const auto slot = section.section("slot"); slot.present()) {
     geometry.kind = Geometry::Kind::slot;
     slot.need("depth", geometry.depth);

@@ -27,7 +27,7 @@ void put_in_order(std::vector<CampaignError>& errors) {
 
 ReadCampaign read_campaign_document(YamlDocument document) {
   ReadCampaign result;
-  if (document.root.is_object()) {
+  if (document.complete && document.root.is_object()) {
     static const auto schema = nlohmann::json::parse(campaign_schema());
     check_against_schema(document, schema);
     result.campaign = campaign_from_document(document);

@@ -199,7 +199,8 @@ class Check {
       return;
     }
     if (schema.contains("type") && !is_kind(value, schema["type"])) {
-      add(path, fmt::format("expected {}, but {} stands here", expected_kind(schema), kind_of(value)));
+      const auto message = fmt::format("expected {}, but {} stands here", expected_kind(schema), kind_of(value));
+      value.is_null() ? add_at_key(path, message) : add(path, message);
       return;
     }
     if (value.is_object()) explain_object(value, schema, path);
@@ -243,18 +244,20 @@ class Check {
   void explain_list(const Json& value, const Schema& schema, const std::string& path) {
     const auto least = schema.value("minItems", std::size_t{0});
     const auto most = schema.value("maxItems", value.size());
-    if (value.size() >= least && value.size() <= most) return;
-    const auto wanted = least == most ? fmt::format("{}", least)
-                                      : fmt::format("{} {}", value.size() < least ? "at least" : "at most",
-                                                    value.size() < least ? least : most);
-    add(path, fmt::format("expected a list of {} ({}), but it has {}", wanted, schema.value("description", ""),
-                          value.size()));
+    const auto refuse = [&](const char* bound, std::size_t wanted) {
+      add(path, fmt::format("expected a list of {}{}, but it has {} ({})", bound, wanted, value.size(),
+                            schema.value("description", "")));
+    };
+    if (value.size() < least) refuse(least == most ? "" : "at least ", least);
+    if (value.size() > most) refuse(least == most ? "" : "at most ", most);
   }
 
   void explain_number(double value, const Schema& schema, const std::string& path) {
+    const auto unit = schema.value("x-unit", "1");
     const auto broken = [&](const char* keyword, const char* words, auto breaks) {
       if (schema.contains(keyword) && breaks(schema[keyword].get<double>())) {
-        add(path, fmt::format("must be {} {}, but is {}", words, schema[keyword].get<double>(), value));
+        add(path, fmt::format("must be {} {}, but is {}{}", words, schema[keyword].get<double>(), value,
+                              unit == "1" ? "" : " " + unit));
       }
     };
     broken("minimum", "at least", [&](double limit) { return value < limit; });

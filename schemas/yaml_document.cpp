@@ -172,7 +172,7 @@ CampaignError YamlDocument::error_at_key(const std::string& path, const std::str
 }
 
 YamlDocument YamlDocument::below(const std::string& key) const {
-  YamlDocument part{file, root.at(key), {}, {}, {}};
+  YamlDocument part{file, root.at(key), {}, {}, {}, complete};
   const auto cut = [&](const std::map<std::string, Place>& from, std::map<std::string, Place>& to) {
     for (const auto& [path, place] : from) {
       if (path == key) to[""] = place;
@@ -185,7 +185,7 @@ YamlDocument YamlDocument::below(const std::string& key) const {
 }
 
 YamlDocument parse_yaml(const std::string& text, const std::string& file_name) {
-  YamlDocument document{file_name, nullptr, {}, {}, {}};
+  YamlDocument document{file_name, nullptr, {}, {}, {}, false};
   std::istringstream stream(text);
   try {
     YAML::Parser parser(stream);
@@ -194,6 +194,8 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file_name) {
       document.errors.push_back({file_name, 1, 1, "", "the file is empty"});
     } else if (Builder rest(document); parser.HandleNextDocument(rest)) {
       document.errors.push_back({file_name, 1, 1, "", "one document was expected, but a second one begins with `---`"});
+    } else {
+      document.complete = true;
     }
   } catch (const YAML::Exception& exception) {
     const auto place = place_of(exception.mark);

@@ -21,7 +21,8 @@ struct YamlDocument {
   nlohmann::ordered_json root;
   std::map<std::string, Place> keys;    ///< where the key of a path stands
   std::map<std::string, Place> values;  ///< where the value of a path begins
-  std::vector<CampaignError> errors;    ///< syntax errors, repeated keys, aliases; with any, `root` may be incomplete
+  std::vector<CampaignError> errors;    ///< all that is wrong so far
+  bool complete = false;                ///< read to its end; else the last error says where it broke off
 
   /// An error at the value of a path, or at the nearest value around it.
   [[nodiscard]] CampaignError error_at(const std::string& path, const std::string& message) const;
@@ -34,8 +35,8 @@ struct YamlDocument {
 std::string path_of(const std::string& parent, const std::string& key);
 std::string path_of(const std::string& parent, std::size_t index);
 
-/// Never throws for what stands in the text: everything wrong is in `errors`.  Aliases, several documents, more than 64
-/// levels and more than 100,000 values are refused.
+/// Never throws for what stands in the text: syntax errors and repeated keys are in `errors`.  Aliases, several
+/// documents, more than 64 levels and more than 100,000 values are refused.
 YamlDocument parse_yaml(const std::string& text, const std::string& file_name);
 
 }  // namespace cupola

@@ -1,0 +1,55 @@
+#include <map>
+#include <set>
+
+#include "schemas/campaign_meaning.hpp"
+#include "schemas/nearest.hpp"
+
+namespace cupola::meaning {
+
+void check_contacts(Context& context) {
+  if (context.campaign.contacts.model == Contacts::Model::linear_spring && context.has("contacts") &&
+      !context.has("contacts.stiffness")) {
+    context.add("contacts", "the model linear-spring needs `stiffness` (like 1e4 N/m)");
+  }
+  const auto& root = context.document.root;
+  if (!context.named || context.names.empty() || !context.has("contacts.pairs") ||
+      !root["contacts"]["pairs"].is_object()) {
+    return;
+  }
+  std::set<std::string> wanted;
+  std::vector<std::string> candidates;  // both orders
+  auto partners = context.names;
+  partners.emplace_back("wall");
+  for (std::size_t i = 0; i < context.names.size(); ++i) {
+    for (std::size_t j = i; j < partners.size(); ++j) {
+      wanted.insert(context.names[i] + "-" + partners[j]);
+      candidates.push_back(context.names[i] + "-" + partners[j]);
+      candidates.push_back(partners[j] + "-" + context.names[i]);
+    }
+  }
+  const auto in_order = [&](const std::string& pair) {
+    const auto dash = pair.find('-');
+    if (wanted.contains(pair) || dash == std::string::npos) return pair;
+    return pair.substr(dash + 1) + "-" + pair.substr(0, dash);
+  };
+
+  std::map<std::string, std::string> given;  // as it is spelt, by the pair in order
+  std::set<std::string> meant;
+  for (const auto& [key, value] : root["contacts"]["pairs"].items()) {
+    const auto pair = in_order(key);
+    const auto path = path_of("contacts.pairs", key);
+    if (!wanted.contains(pair)) {
+      if (const auto near = nearest_word(key, candidates)) meant.insert(in_order(*near));
+      context.add_at_key(path, "`{}` is no pair of species, or of a species and `wall`{}", key,
+                         suggestion(key, candidates));
+    } else if (const auto [first, fresh] = given.emplace(pair, key); !fresh) {
+      context.add_at_key(path, "this pair stands here a second time; the first is `{}`", first->second);
+    }
+  }
+  for (const auto& pair : wanted) {
+    if (!given.contains(pair) && !meant.contains(pair))
+      context.add_at_key("contacts.pairs", "the pair `{}` is missing", pair);
+  }
+}
+
+}  // namespace cupola::meaning
