@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -88,6 +90,14 @@ ut_system* unit_system() {
   return system.get();
 }
 
+/// udunits passes over what follows a unit, like a bracket: only the characters of units are let through.
+bool may_be_unit(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return c >= 0x80 || std::isalnum(c) != 0 ||
+           std::string_view(" ^*/.-+%").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
 Unit parse_unit(const std::string& text) { return Unit(ut_parse(unit_system(), text.c_str(), UT_UTF8)); }
 
 /// udunits calls reciprocals convertible (`Hz` to `s`); here they are not.
@@ -118,14 +128,16 @@ double converted(double number, const std::string& unit_text, const std::string&
     throw UnitError(
         fmt::format("expected {}, but the `ton` of `{}` is the American one: write t for 1000 kg", expected, text));
   }
-  const Unit unit = parse_unit(unit_text);
+  const Unit unit = may_be_unit(unit_text) ? parse_unit(unit_text) : nullptr;
   if (!unit)
     throw UnitError(fmt::format("expected {}, but `{}` of `{}` is not a known unit", expected, unit_text, text));
   const Unit si = parse_unit(si_unit);
   if (!same_dimension(unit, si))
     throw UnitError(fmt::format("expected {}, but `{}` is {}", expected, text, measured_by(unit)));
   const Converter converter(ut_get_converter(unit.get(), si.get()));
-  if (!converter) throw UnitError(fmt::format("expected {}, but `{}` cannot be converted", expected, text));
+  // Only temperatures have a zero of their own; others with one are dates (`s since 2000-01-01`).
+  if (!converter || (si_unit != "K" && cv_convert_double(converter.get(), 0) != 0))
+    throw UnitError(fmt::format("expected {}, but `{}` cannot be converted", expected, text));
   return cv_convert_double(converter.get(), number);
 }
 

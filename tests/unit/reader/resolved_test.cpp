@@ -1,0 +1,139 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "schemas/campaign_reader.hpp"
+#include "schemas/files.hpp"
+#include "schemas/resolved_campaign.hpp"
+#include "schemas/yaml_document.hpp"
+#include "schemas/yaml_text.hpp"
+#include "tests/unit/reader/base_campaign.hpp"
+
+namespace cupola {
+namespace {
+
+Campaign read(const std::string& text) {
+  auto result = read_campaign_text(text, "file");
+  EXPECT_TRUE(result.ok()) << to_text(result.errors);
+  return result.campaign;
+}
+
+std::vector<std::filesystem::path> case_files() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(CUPOLA_SOURCE) / "cases")) {
+    if (std::filesystem::exists(entry.path() / "campaign.yaml")) files.push_back(entry.path() / "campaign.yaml");
+  }
+  return files;
+}
+
+TEST(ResolvedCampaign, ReadsBackTheSameForEveryCase) {
+  ASSERT_GE(case_files().size(), 3U);
+  for (const auto& file : case_files()) {
+    const auto campaign = load_campaign(file);
+    EXPECT_EQ(resolved_json(read(resolved_yaml(campaign))), resolved_json(campaign)) << file;
+  }
+}
+
+TEST(ResolvedCampaign, KeepsEveryBit) {
+  auto campaign = read(test::base_campaign);
+  campaign.descent_rate = 1.0 / 3.0 * 1e-3;
+  campaign.contacts.youngs_modulus = std::nextafter(5e7, 1e8);
+  campaign.tracer.duration = 1e22 / 3;
+  campaign.dem.window = std::numeric_limits<double>::denorm_min();
+  campaign.dem.block = campaign.dem.window;
+  campaign.scene.geometry.profile[0][0] = -0.0;
+  campaign.random_seed = 9007199254740991U;
+  campaign.dem.time_step = campaign.dem.block;
+  const auto again = read(resolved_yaml(campaign));
+  EXPECT_EQ(again.descent_rate, campaign.descent_rate);
+  EXPECT_EQ(again.contacts.youngs_modulus, campaign.contacts.youngs_modulus);
+  EXPECT_EQ(again.tracer.duration, campaign.tracer.duration);
+  EXPECT_EQ(again.dem.window, campaign.dem.window);
+  EXPECT_TRUE(std::signbit(again.scene.geometry.profile[0][0]));
+  EXPECT_EQ(again.random_seed, campaign.random_seed);
+  EXPECT_EQ(again.dem.time_step, campaign.dem.time_step);
+}
+
+TEST(ResolvedCampaign, KeepsTheOrderOfSpecies) {
+  auto campaign = read(test::base_campaign);
+  std::swap(campaign.species[0], campaign.species[1]);
+  campaign.contacts.pairs["ore-coke"] = campaign.contacts.pairs.extract("coke-ore").mapped();
+  const auto again = read(resolved_yaml(campaign));
+  EXPECT_EQ(again.species[0].name, "ore");
+  EXPECT_EQ(resolved_json(again), resolved_json(campaign));
+}
+
+TEST(CampaignDefaults, AreDerivedFromTheScene) {
+  const auto campaign = read(test::base_campaign);
+  EXPECT_DOUBLE_EQ(campaign.species[1].none_below, 1.7);  // top of the raceway + 1 m
+  EXPECT_DOUBLE_EQ(campaign.charging.hopper_height, 200 / 800. / 0.55 / (2 * 1.2 * 0.6) + 0.5);
+  EXPECT_DOUBLE_EQ(campaign.hopper_top(), 6 + campaign.charging.hopper_height);
+  EXPECT_EQ(campaign.dem.gas, DemSettings::GasModel::quasi_steady);
+  EXPECT_TRUE(campaign.contacts.pairs.contains("coke-ore"));  // given as ore-coke
+  EXPECT_NEAR(campaign.scene.gas->heat_capacity, 1041.945, 1e-3);
+  EXPECT_DOUBLE_EQ(campaign.half_width(3.5), 1.35);
+}
+
+TEST(CampaignDefaults, OwnGasPropertiesTakeThePlaceOfThePresets) {
+  const auto campaign = read(test::spoilt("species: blast", "species: blast\n    viscosity: 5e-5 Pa s"));
+  EXPECT_DOUBLE_EQ(campaign.scene.gas->viscosity, 5e-5);
+  EXPECT_DOUBLE_EQ(campaign.scene.gas->prandtl, 0.8);
+}
+
+TEST(CampaignDefaults, CountedCellsGiveTheMeanCellHeight) {
+  const auto campaign = read(test::spoilt("{cell: 0.2 m}", "{cells: {half_width: 8, depth: 3, heights: [4, 8]}}"));
+  ASSERT_TRUE(campaign.scene.mesh.cells.has_value());
+  EXPECT_DOUBLE_EQ(campaign.scene.mesh.cell, 0.5);
+}
+
+/// Every `default` of the schema is what the reader fills in.
+void compare_defaults(const nlohmann::json& schema, const nlohmann::ordered_json& resolved, const std::string& path,
+                      int& compared) {
+  if (schema.contains("default")) {
+    ++compared;
+    EXPECT_EQ(nlohmann::json(resolved), schema["default"]) << path;
+  }
+  if (!schema.contains("properties")) return;
+  for (const auto& [key, member] : schema["properties"].items()) {
+    if (resolved.contains(key)) compare_defaults(member, resolved[key], path_of(path, key), compared);
+  }
+}
+
+TEST(CampaignDefaults, AreThoseOfThePublishedSchema) {
+  const auto text = test::spoilt(
+      "raceways:\n  - {box: {x: [1, 1.5], y: [-0.3, 0.3], z: [0.3, 0.7]}, dem_removal_rate: 50 kg/s}\n", "");
+  int compared = 0;
+  compare_defaults(nlohmann::json::parse(campaign_schema()), resolved_json(read(text)), "", compared);
+  EXPECT_GE(compared, 35);
+}
+
+TEST(CampaignManual, ExplainsEveryKey) {
+  const auto manual = read_text(std::filesystem::path(CUPOLA_SOURCE) / "docs/campaign_file.md");
+  const auto explained = [&](const std::string& word) { return manual.find("`" + word + "`") != std::string::npos; };
+  std::vector<nlohmann::json> open{nlohmann::json::parse(campaign_schema())};
+  while (!open.empty()) {
+    const auto schema = open.back();
+    open.pop_back();
+    for (const auto* inner : {"items", "additionalProperties"}) {
+      if (schema.contains(inner) && schema[inner].is_object()) open.push_back(schema[inner]);
+    }
+    for (const auto* inner : {"properties", "patternProperties"}) {
+      if (!schema.contains(inner)) continue;
+      for (const auto& [key, member] : schema[inner].items()) {
+        open.push_back(member);
+        if (inner == std::string("properties")) {
+          EXPECT_TRUE(explained(key)) << key;
+        }
+        if (member.contains("enum")) {
+          for (const auto& word : member["enum"]) EXPECT_TRUE(explained(word)) << word;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cupola
