@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "orchestrator/child_process.hpp"
 #include "orchestrator/commands.hpp"
 #include "orchestrator/stage_launcher.hpp"
+#include "physics/plan/plan.hpp"
 #include "schemas/campaign_reader.hpp"
 #include "schemas/version.hpp"
 
@@ -36,6 +39,9 @@ ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& sign
 
 ExitCode run(const fs::path& campaign_file, const std::optional<fs::path>& folder, const MarchOptions& options) {
   SignalWatch signals;
+  const Plan plan = make_plan(load_campaign(campaign_file));
+  refuse(plan);
+  for (const std::string& warning : plan.warnings) fmt::print("note: {}\n", warning);
   const auto opened = RunFolder::for_campaign(campaign_file, folder.value_or(usual_folder(campaign_file)));
   return go_on(*opened, options, signals);
 }

@@ -11,6 +11,9 @@ namespace cupola {
 /// `cupola validate CAMPAIGN`: all errors of a campaign file.
 ExitCode validate(const std::filesystem::path& campaign_file, bool as_json);
 
+/// `cupola explain CAMPAIGN`: what will be computed and why, sizes, heat balance, expected cost.
+ExitCode explain(const std::filesystem::path& campaign_file, bool as_json);
+
 /// `cupola run CAMPAIGN`: begins a run folder, or goes on with it.
 /// @param folder none: `runs/<campaign>` in the present folder
 ExitCode run(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder,

@@ -68,6 +68,11 @@ int main(int argc, char** argv) {
   with_json(validate);
   validate->callback([&] { command = [&] { return cupola::validate(campaign, as_json); }; });
 
+  CLI::App* explain = with_campaign(
+      app.add_subcommand("explain", "Say what will be computed and why, whether the ore melts, how long it takes"));
+  with_json(explain);
+  explain->callback([&] { command = [&] { return cupola::explain(campaign, as_json); }; });
+
   CLI::App* run = with_campaign(app.add_subcommand("run", "Run a campaign, or go on with its run folder"));
   run->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
   with_limits(run);

@@ -1,0 +1,15 @@
+#include <fmt/format.h>
+
+#include "orchestrator/commands.hpp"
+#include "physics/plan/plan.hpp"
+#include "schemas/campaign_reader.hpp"
+
+namespace cupola {
+
+ExitCode explain(const std::filesystem::path& campaign_file, bool as_json) {
+  const Plan plan = make_plan(load_campaign(campaign_file));
+  fmt::print("{}\n", as_json ? plan_json(plan).dump(2) : plan_text(plan));
+  return ExitCode::done;
+}
+
+}  // namespace cupola
