@@ -13,3 +13,12 @@ if(TARGET cupola)
                                           $<TARGET_FILE:cupola> "${CMAKE_SOURCE_DIR}")
   set_tests_properties(unit_command_line PROPERTIES LABELS unit TIMEOUT 120)
 endif()
+
+# The tiny campaign through the real stages, left alone and disturbed.
+if(TARGET cupola AND TARGET cupola-dem AND TARGET cupola-tracer)
+  foreach(ranks 1 2)
+    add_test(NAME workflow_campaign_${ranks} COMMAND "${CMAKE_CURRENT_LIST_DIR}/workflow/campaign_test.sh" $<TARGET_FILE:cupola>
+                                                     "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/campaign_${ranks}" ${ranks})
+    set_tests_properties(workflow_campaign_${ranks} PROPERTIES LABELS workflow TIMEOUT 900 PROCESSORS ${ranks})
+  endforeach()
+endif()

@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# A tiny campaign through the real stages: left alone, and stopped, killed and resumed at every place; both must end the same.
+#   campaign_test.sh CUPOLA SOURCE_DIR WORK_DIR RANKS
+set -uo pipefail
+cupola=$1
+source=$2
+work=$3
+ranks=$4
+rm -rf "$work"
+mkdir -p "$work"
+sed "s/^launch:.*/launch: {ranks: $ranks}/" "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"
+run=$work/disturbed
+
+fail() {
+  echo "FAILED: $*"
+  [[ -f $work/out ]] && tail -n 20 "$work/out"
+  exit 1
+}
+
+# status_of COMMAND...: runs it, its words into the log, and prints its exit status.
+status_of() {
+  echo "== $*" >> "$work/out"
+  "$@" >> "$work/out" 2>&1
+  echo $?
+}
+
+# field JSON-FILE KEY: a number or text at the first level of a JSON object on one line or several.
+field() { node -e 'const [f, k] = process.argv.slice(1); console.log(JSON.parse(require("fs").readFileSync(f))[k] ?? "")' "$1" "$2"; }
+
+# The process of mpirun of the stage that was started last.
+stage_process() { grep '"event":"stage-started"' "$run/journal.jsonl" | tail -n 1 | sed 's/.*"pid":\([0-9]*\).*/\1/'; }
+
+# wait_for SECONDS COMMAND...: until the command succeeds.
+wait_for() {
+  local until=$((SECONDS + $1))
+  shift
+  until "$@" > /dev/null 2>&1; do
+    [[ $SECONDS -lt $until ]] || return 1
+    sleep 0.1
+  done
+}
+
+# in_stage EPISODE STAGE: its program has made at least one step.
+in_stage() {
+  local progress=$run/episodes/$1/$2/attempt-1/progress.json
+  [[ -f $progress && $(field "$progress" step) -gt 0 ]]
+}
+
+echo "-- left alone"
+expected=$(status_of "$cupola" run "$work/campaign.yaml" --run-dir "$work/alone")
+[[ $expected == 75 || $expected == 0 ]] || fail "the undisturbed campaign ended with $expected"
+[[ $(status_of "$cupola" status "$work/alone") == 0 ]] || fail "status of a finished run"
+
+echo "-- SIGKILL of the orchestrator inside the first DEM stage; the stage runs on and is found"
+"$cupola" run "$work/campaign.yaml" --run-dir "$run" >> "$work/out" 2>&1 &
+orchestrator=$!
+wait_for 120 in_stage 001 dem || fail "the first DEM stage does not begin"
+[[ $(status_of "$cupola" resume "$run") == 73 ]] || fail "a second orchestrator was let in"
+kill -KILL "$orchestrator"
+wait "$orchestrator" 2> /dev/null
+kill -0 "$(stage_process)" || fail "the stage died with its orchestrator"
+[[ $(status_of "$cupola" resume "$run" --until-episode 1) == 75 ]] || fail "resume beside an orphan"
+grep -q '"event":"orphan-found"' "$run/journal.jsonl" || fail "the orphan was not found"
+[[ $(grep -c '"event":"stage-started".*"stage":"dem"' "$run/journal.jsonl") == 1 ]] || fail "a second DEM stage was started beside the orphan"
+
+echo "-- a line of the journal changed, then put back"
+cp "$run/journal.jsonl" "$work/journal.jsonl"
+sed -i '1s/tiny/tany/' "$run/journal.jsonl"
+[[ $(status_of "$cupola" resume "$run") == 65 ]] || fail "a changed journal was accepted"
+cp "$work/journal.jsonl" "$run/journal.jsonl"
+
+echo "-- a result truncated, then put back"
+result=$run/episodes/001/dem/attempt-1/result.hdf
+cp "$result" "$work/result.hdf"
+truncate -s -100 "$result"
+[[ $(status_of "$cupola" resume "$run") == 74 ]] || fail "a truncated result was accepted"
+cp "$work/result.hdf" "$result"
+
+echo "-- SIGTERM inside the second DEM stage, Ctrl-C twice after that"
+for signals in TERM "INT INT"; do
+  "$cupola" resume "$run" >> "$work/out" 2>&1 &
+  orchestrator=$!
+  wait_for 120 in_stage 002 dem || fail "the second DEM stage does not begin"
+  for signal in $signals; do
+    kill "-$signal" "$orchestrator"
+    sleep 0.2
+  done
+  wait "$orchestrator"
+  status=$?
+  [[ $status == 75 ]] || fail "$signals: left with $status"
+done
+
+echo "-- SIGKILL of mpirun, of its ranks and of the orchestrator inside the second DEM stage"
+"$cupola" resume "$run" >> "$work/out" 2>&1 &
+orchestrator=$!
+wait_for 120 in_stage 002 dem || fail "the second DEM stage does not go on"
+sleep 0.5
+mpirun=$(stage_process)
+kill -KILL "$orchestrator" "$mpirun" $(pgrep -P "$mpirun") 2> /dev/null
+wait "$orchestrator" 2> /dev/null
+
+echo "-- SIGUSR1 to the second tracer stage itself"
+"$cupola" resume "$run" >> "$work/out" 2>&1 &
+orchestrator=$!
+wait_for 240 in_stage 002 tracer || fail "the second tracer stage does not begin"
+kill -USR1 "$(stage_process)"
+wait "$orchestrator"
+[[ $? == 75 || -f $run/episodes/002/tracer/attempt-1/manifest.json ]] || fail "SIGUSR1 to a stage"
+
+echo "-- to the end"
+status=$(status_of "$cupola" resume "$run")
+[[ $status == "$expected" ]] || fail "ended with $status, left alone with $expected"
+node "$(dirname "$0")/compare_reports.mjs" "$work/alone/report/report.json" "$run/report/report.json" || fail "the ends differ"
+[[ $(status_of "$cupola" resume "$run") == "$expected" ]] || fail "resume of a finished run"
+echo "the disturbed campaign ended as the one left alone"

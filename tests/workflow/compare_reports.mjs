@@ -1,0 +1,27 @@
+// Compares two report.json, numbers within a relative tolerance (0: bit for bit), without what depends on the day and the machine.
+//   node compare_reports.mjs A B [TOLERANCE]
+import { readFileSync } from 'node:fs';
+
+const [fileA, fileB, toleranceText] = process.argv.slice(2);
+const tolerance = Number(toleranceText ?? 0);
+const ofTheDay = /wall|rate_of_progress|^rate$|^time$|started|ended|host|folder|file|command|provenance|^seconds_by_part/;
+const differences = [];
+
+function compare(a, b, path) {
+  if (typeof a === 'number' && typeof b === 'number') {
+    const scale = Math.max(Math.abs(a), Math.abs(b));
+    if (!Object.is(a, b) && Math.abs(a - b) > tolerance * scale) differences.push(`${path}: ${a} and ${b}`);
+  } else if (a !== null && b !== null && typeof a === 'object' && typeof b === 'object') {
+    for (const key of new Set([...Object.keys(a), ...Object.keys(b)]))
+      if (Array.isArray(a) || !ofTheDay.test(key)) compare(a[key], b[key], `${path}/${key}`);
+  } else if (a !== b) {
+    differences.push(`${path}: ${JSON.stringify(a)} and ${JSON.stringify(b)}`);
+  }
+}
+
+compare(JSON.parse(readFileSync(fileA)), JSON.parse(readFileSync(fileB)), '');
+if (differences.length > 0) {
+  console.error(`${fileA} and ${fileB} differ in ${differences.length} places:`);
+  for (const difference of differences.slice(0, 40)) console.error(`  ${difference}`);
+  process.exit(1);
+}
