@@ -6,7 +6,9 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 #include "schemas/file_descriptor.hpp"
 #include "schemas/files.hpp"
@@ -41,12 +43,24 @@ bool take(int descriptor, const std::filesystem::path& file) {
   throw_system_failure(file, "lock");
 }
 
+/// Takes the lock; whoever only looks whether it is held (`holder`) has it for a moment, which is waited for.
+bool take_patiently(int descriptor, const std::filesystem::path& file) {
+  constexpr int looks = 10;
+  for (int look = 0; look < looks; ++look) {
+    if (take(descriptor, file)) {
+      return true;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "lock";
   FileDescriptor opened(file, O_RDWR | O_CREAT);
-  if (!take(opened.get(), file)) {
+  if (!take_patiently(opened.get(), file)) {
     throw Failure(ExitCode::held,
                   fmt::format("{}: held by {}; wait for it, or stop it first", folder.string(), describe_holder(file)))
         .at("folder", folder.string());
@@ -68,7 +82,7 @@ std::optional<std::string> FolderLock::holder(const std::filesystem::path& folde
   if (!std::filesystem::exists(file)) {
     return std::nullopt;
   }
-  const FileDescriptor opened(file, O_RDWR);
+  const FileDescriptor opened(file, O_RDONLY);  // also where we may only read
   return take(opened.get(), file) ? std::nullopt : std::optional(describe_holder(file));
 }
 
