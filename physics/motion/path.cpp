@@ -145,20 +145,28 @@ double PathField::crossing_time(std::int64_t number) const {
 
 PathField::Exit PathField::find_exit(const Cell& cell, const Vector3& reference) const {
   Exit exit;
+  Vector3 straight{never, never, never};  // pseudo-time at the present rate
+  Vector3 least{never, never, never};     // log(1 + z)/z >= 2/(2 + z): most axes are ruled out without a logarithm
+  std::size_t first = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double change = cell.change[axis];
     const double rate = cell.flux[axis] + change * reference[axis];
     exit.rate[axis] = rate;
-    // A flux through the face that does not lead out is never reached: the path slows down in front of it.
-    const bool upper = rate > 0;
-    if (upper ? !(cell.flux[axis] + change > 0) : !(rate < 0 && cell.flux[axis] < 0)) continue;
-    const double way = (upper ? 1.0 : 0.0) - reference[axis];
-    const double straight = way / rate;
-    const double pseudo = straight * log1p_over(change * straight);
+    // A face whose flux does not lead out is never reached: the path slows down in front of it.
+    const bool leads_out = rate > 0 ? cell.flux[axis] + change > 0 : rate < 0 && cell.flux[axis] < 0;
+    if (!leads_out) continue;
+    straight[axis] = ((rate > 0 ? 1.0 : 0.0) - reference[axis]) / rate;
+    least[axis] = 2 * straight[axis] / (2 + change * straight[axis]);
+    if (least[axis] < least[first]) first = axis;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t axis = (first + k) % 3;
+    if (!(least[axis] < exit.pseudo)) continue;
+    const double pseudo = straight[axis] * log1p_over(cell.change[axis] * straight[axis]);
     if (pseudo < exit.pseudo) {
       exit.pseudo = pseudo;
       exit.axis = axis;
-      exit.upper = upper;
+      exit.upper = exit.rate[axis] > 0;
     }
   }
   return exit;

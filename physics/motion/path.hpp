@@ -50,7 +50,7 @@ class PathField {
   [[nodiscard]] std::int64_t fallbacks() const { return fallbacks_; }
 
  private:
-  /// All a path needs of a cell; 120 bytes.
+  /// All a path needs of a cell; 112 bytes.
   struct Cell {
     Vector3 flux{};                    ///< at reference coordinate 0, in the sense of the axis, m3/s
     Vector3 change{};                  ///< flux at 1 less flux at 0, m3/s
