@@ -32,12 +32,6 @@ std::vector<double> nodes_of(double length, int cells, const std::vector<double>
   return nodes;
 }
 
-std::vector<bool> present_at(double depth, const std::vector<double>& ends) {
-  std::vector<bool> present;
-  for (const double end : ends) present.push_back(depth < end);
-  return present;
-}
-
 /// One direct solution with given ends of the solids.
 CounterCurrentSolution sweep(const CounterCurrentBed& bed, int cells, const std::vector<double>& ends) {
   const std::size_t kinds = bed.solids.size();
@@ -140,6 +134,12 @@ double overshoot(const CounterCurrentBed& bed, const CounterCurrentSolution& sol
 }
 
 }  // namespace
+
+std::vector<bool> present_at(double depth, const std::vector<double>& end_depth) {
+  std::vector<bool> present(end_depth.size());
+  std::transform(end_depth.begin(), end_depth.end(), present.begin(), [&](double end) { return depth < end; });
+  return present;
+}
 
 double CounterCurrentSolution::residual() const {
   double rest = gas_in - gas_out - to_wall;

@@ -46,6 +46,9 @@ struct CounterCurrentSolution {
   [[nodiscard]] std::optional<double> depth_of(std::size_t kind, double temperature) const;
 };
 
+/// Which kinds are still there at a depth, given where each leaves.
+std::vector<bool> present_at(double depth, const std::vector<double>& end_depth);
+
 /// Steady temperatures of a counter-current bed,
 ///   C_i dT_i/ds = h_i (T_g - T_i) + e (T_j - T_i),   C_g dT_g/ds = sum h_i (T_g - T_i) + w (T_g - T_w),
 /// s downwards, solids given at s = 0 and gas at s = length.

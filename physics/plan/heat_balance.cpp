@@ -132,10 +132,8 @@ std::optional<HeatBalance> heat_balance(const Campaign& campaign, const Charge& 
     const std::size_t i = result.kinds[k];
     for (std::size_t n = 1; n < depth.size(); ++n) {
       const double middle = (depth[n] + depth[n - 1]) / 2;
-      std::vector<bool> present;
-      for (const double end : result.profile.end_depth) present.push_back(middle < end);
-      result.transfer_units[i] +=
-          bed.exchange(middle, present).gas[k] * (depth[n] - depth[n - 1]) / bed.solids[k].heat_capacity_flow;
+      result.transfer_units[i] += bed.exchange(middle, present_at(middle, result.profile.end_depth)).gas[k] *
+                                  (depth[n] - depth[n - 1]) / bed.solids[k].heat_capacity_flow;
     }
     result.leaves_at[i] = result.profile.solids_temperature[k].back();
     if (const auto& melts = result.profile.melting_depth[k]) result.melting_height[i] = stock_line - *melts;
