@@ -1,15 +1,15 @@
-# The DEM stage: its engine and its parts on one and on two ranks.
-set(two_ranks mpirun --allow-run-as-root --oversubscribe --bind-to none -n 2)
+# The DEM stage: its engine and its parts on one and on two ranks, the program on a tiny slot.
+foreach(part engine parts)
+  add_executable(test_dem_${part} unit/dem/test_${part}.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
+  cupola_own_code(test_dem_${part})
+  target_link_libraries(test_dem_${part} PRIVATE cupola_dem GTest::gtest GTest::gmock)
+  foreach(ranks 1 2)
+    cupola_mpi_test(dem_${part}_${ranks} LABEL verification RANKS ${ranks} PROGRAM test_dem_${part})
+  endforeach()
+endforeach()
+target_sources(test_dem_parts PRIVATE support/box_mesh.cpp)
 
-# cupola_mpi_test(NAME LABEL label SOURCES ... LIBRARIES ...): one program, run whole on one and on two ranks.
-function(cupola_mpi_test name)
-  cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
-  add_executable(${name} ${TEST_SOURCES} unit/dem/mpi_main.cpp)
-  cupola_own_code(${name})
-  target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} MPI::MPI_CXX GTest::gtest GTest::gmock)
-  add_test(NAME ${name}.1rank COMMAND ${name})
-  add_test(NAME ${name}.2ranks COMMAND ${two_ranks} $<TARGET_FILE:${name}>)
-  set_tests_properties(${name}.1rank ${name}.2ranks PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT 300)
-endfunction()
-
-cupola_mpi_test(test_dem_engine LABEL verification SOURCES unit/dem/test_engine.cpp unit/dem/box_scene.cpp LIBRARIES cupola_dem)
+cupola_test(dem_program LABEL workflow SOURCES workflow/dem_program_test.cpp LIBRARIES cupola_schemas)
+add_dependencies(dem_program cupola-dem)
+target_compile_definitions(dem_program PRIVATE CUPOLA_DEM="$<TARGET_FILE:cupola-dem>" CUPOLA_MPIEXEC="${MPIEXEC_EXECUTABLE}"
+                                               CUPOLA_TINY="${CMAKE_SOURCE_DIR}/cases/tiny/campaign.yaml")

@@ -1,0 +1,72 @@
+#include "stage_dem/bed_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage_dem/neighbour_grid.hpp"
+
+namespace cupola {
+namespace {
+
+double norm(const Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+constexpr double fast_speed = 5;
+
+}  // namespace
+
+double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator) {
+  double diameter = 0;
+  for (const auto& species : campaign.species) diameter = std::max(diameter, species.parcel_diameter());
+  const bool periodic = campaign.scene.geometry.sides == Geometry::Sides::periodic;
+  NeighbourGrid grid(diameter, periodic ? campaign.scene.geometry.depth : 0);
+  for (std::size_t i = 0; i < parcels.size(); ++i) grid.add(parcels[i].position, i);
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(communicator, &rank);
+  MPI_Comm_size(communicator, &ranks);
+  double largest = 0;
+  for (auto i = static_cast<std::size_t>(rank); i < parcels.size(); i += static_cast<std::size_t>(ranks))
+    grid.near(parcels[i].position, [&](std::size_t j, const Vector3& way) {
+      if (j == i) return;
+      const double overlap = parcels[i].radius + parcels[j].radius - norm(way);
+      largest = std::max(largest, overlap / std::min(parcels[i].radius, parcels[j].radius));
+    });
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return largest;
+}
+
+BedMotion bed_motion(const std::vector<Parcel>& parcels, const std::set<std::int64_t>& falling, double seconds) {
+  BedMotion motion;
+  std::size_t counted = 0;
+  for (const auto& parcel : parcels) {
+    if (norm(parcel.velocity) > fast_speed) ++motion.fast;
+    if (falling.contains(parcel.id)) continue;
+    motion.speed += norm(parcel.displacement) / seconds;
+    motion.downwards -= parcel.displacement[2] / seconds;
+    ++counted;
+  }
+  if (counted > 0) {
+    motion.speed /= static_cast<double>(counted);
+    motion.downwards /= static_cast<double>(counted);
+  }
+  return motion;
+}
+
+bool in_interior(const Campaign& campaign, const Vector3& point, double surface) {
+  double diameter = 0;
+  for (const auto& species : campaign.species) diameter = std::max(diameter, species.parcel_diameter());
+  const double away = 1.5 * diameter;
+  if (std::abs(point[0]) > campaign.half_width(point[2]) - away) return false;
+  if (campaign.scene.geometry.sides == Geometry::Sides::walls &&
+      std::abs(point[1]) > campaign.scene.geometry.depth / 2 - away)
+    return false;
+  if (point[2] < campaign.bottom() + away || point[2] > surface - away) return false;
+  return std::none_of(campaign.raceways.begin(), campaign.raceways.end(), [&](const Raceway& raceway) {
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      inside = inside && point[k] > raceway.box[0][k] - away && point[k] < raceway.box[1][k] + away;
+    return inside;
+  });
+}
+
+}  // namespace cupola

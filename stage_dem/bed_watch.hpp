@@ -1,0 +1,27 @@
+#pragma once
+#include <mpi.h>
+
+#include <set>
+#include <vector>
+
+#include "stage_dem/engine.hpp"
+
+namespace cupola {
+
+/// Largest overlap of two parcels over the smaller radius.  The ranks share the work; collective.
+/// @param parcels all, the same on every rank
+double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator);
+
+/// Means over the parcels of the bed (those still falling left out) of the last block's displacement over its seconds.
+struct BedMotion {
+  double speed = 0;       ///< m/s, mean of |u|
+  double downwards = 0;   ///< m/s, mean of -u_z
+  std::int64_t fast = 0;  ///< parcels faster than 5 m/s now, the falling ones included
+};
+BedMotion bed_motion(const std::vector<Parcel>& parcels, const std::set<std::int64_t>& falling, double seconds);
+
+/// Whether a point lies in the bed's interior: a diameter and a half from walls, floor and surface, and outside the
+/// raceways.
+bool in_interior(const Campaign& campaign, const Vector3& point, double surface);
+
+}  // namespace cupola

@@ -1,0 +1,339 @@
+#include "stage_dem/dem_stage.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "schemas/files.hpp"
+#include "stage_dem/bed_surface.hpp"
+#include "stage_dem/bed_watch.hpp"
+#include "stage_dem/dem_files.hpp"
+#include "stage_dem/parcels.hpp"
+#include "stage_dem/part_timer.hpp"
+#include "stage_dem/softening.hpp"
+
+namespace cupola {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+/// Building needs no more than stability: creep and overlap do not matter to a bed that is still falling.
+constexpr double building_fraction = 0.2;
+/// The bed is at rest below this mean speed, m/s; settling takes between these times, s.
+constexpr double rest_speed = 0.01;
+constexpr double least_settling = 0.4;
+constexpr double most_settling = 1.5;
+/// Steps between two growths of a radius.
+constexpr long regrowth_steps = 10;
+/// Shortest batch of the window's statistics, s.
+constexpr double least_batch = 0.25;
+/// Times are sums of blocks: less than this apart they are the same, s.
+constexpr double same_time = 1e-9;
+
+}  // namespace
+
+DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCase& foam, const BedMesh& mesh,
+                   MPI_Comm communicator)
+    : task_(task),
+      campaign_(task.campaign),
+      folder_(folder),
+      mesh_(mesh),
+      communicator_(communicator),
+      rank_(foam.rank()),
+      ranks_(foam.ranks()),
+      started_(Clock::now()),
+      last_progress_(started_),
+      last_checkpoint_(started_),
+      step_(dem_time_step(task.campaign)),
+      temperature_(task, folder, mesh),
+      solids_(mesh, task.campaign, communicator),
+      builder_(task.campaign),
+      charging_(task.campaign),
+      raceways_(task.campaign),
+      books_(task.campaign),
+      books_at_window_(task.campaign),
+      averages_(mesh.cells(), std::max(least_batch, task.campaign.dem.window / 10)) {
+  if (campaign_.scene.gas && campaign_.dem.gas == DemSettings::GasModel::quasi_steady)
+    gas_.emplace(foam, mesh, campaign_, temperature_.gas());
+}
+
+ExitCode DemStage::run() {
+  begin();
+  while (state_.phase != DemPhase::done) {
+    begin_block();
+    advance_block();
+    finish_block();
+    next_phase();
+    report_progress(false);
+    if (StopRequest::agreed(communicator_)) {
+      DemFiles(*this).write_checkpoint();
+      spdlog::info("stopped on request at {:.2f} s of process time; run again to go on", state_.time);
+      return ExitCode::stopped;
+    }
+    DemFiles(*this).write_checkpoint_when_due();
+  }
+  begin_block();  // the last packing on the mesh, its sample and the gas through it
+  if (gas_) gas_->update(solids_, true);
+  report_progress(true);
+  DemFiles(*this).write_result();
+  return ExitCode::done;
+}
+
+void DemStage::begin() {
+  DemFiles files(*this);
+  if (files.resume()) {
+    parcels_ = gather_parcels(*engine_, communicator_);
+    spdlog::info("going on from the checkpoint at step {}", engine_->step());
+  } else if (task_.inputs.contains("packing")) {
+    files.load_packing();
+    parcels_ = gather_parcels(*engine_, communicator_);
+    regrowing_ = true;
+    enter(DemPhase::regrowing);
+  } else {
+    files.make_engine({});
+    enter(DemPhase::building);
+  }
+}
+
+void DemStage::enter(DemPhase phase) {
+  state_.phase = phase;
+  state_.phase_time = 0;
+  if (phase == DemPhase::averaging) {
+    books_at_window_ = books_;
+    state_.stored_at_window = 0;
+    for (const auto& parcel : parcels_) state_.stored_at_window += parcel.mass;
+  }
+  spdlog::info("{} at {:.2f} s of process time, {} parcels", phase_name(phase), state_.time, parcels_.size());
+}
+
+void DemStage::begin_block() {
+  if (state_.phase == DemPhase::building) return;
+  const auto owned = engine_->owned();
+  {
+    const PartTimer timer(state_.wall_parts, "projection");
+    solids_.divide(owned);
+    if (state_.last_block > 0 && (state_.phase == DemPhase::averaging || state_.phase == DemPhase::done)) sample();
+  }
+  if (!gas_ || state_.phase == DemPhase::done) return;
+  {
+    const PartTimer timer(state_.wall_parts, "gas");
+    gas_->update(solids_);
+  }
+  const PartTimer timer(state_.wall_parts, "projection");
+  engine_->set_forces(gas_->forces(solids_, owned, communicator_));
+}
+
+void DemStage::advance_block() {
+  const PartTimer timer(state_.wall_parts, "liggghts");
+  const double block = campaign_.dem.block;
+  double step = step_.step;
+  long steps = step_.steps_per_block;
+  if (state_.phase == DemPhase::building) {
+    steps = static_cast<long>(std::ceil(block / (std::max(building_fraction, step_.fraction()) * step_.reference)));
+    step = block / static_cast<double>(steps);
+  } else if (state_.phase == DemPhase::regrowing) {
+    steps = regrowth_steps;
+  }
+  engine_->set_time_step(step);
+  if (engine_->count() > 0) engine_->advance(steps);
+  state_.last_block = step * static_cast<double>(steps);
+  state_.time += state_.last_block;
+  state_.phase_time += state_.last_block;
+}
+
+void DemStage::finish_block() {
+  const PartTimer timer(state_.wall_parts, "between_blocks");
+  if (state_.phase != DemPhase::building) shrink_or_regrow();
+  parcels_ = gather_parcels(*engine_, communicator_);
+  watch();
+  if (state_.phase != DemPhase::building) remove_parcels();
+  charge();
+}
+
+void DemStage::next_phase() {
+  switch (state_.phase) {
+    case DemPhase::building:
+      if (builder_.done()) enter(DemPhase::settling);
+      break;
+    case DemPhase::settling:
+      if (state_.phase_time > least_settling - same_time &&
+          (state_.mean_speed < rest_speed || state_.phase_time > most_settling - same_time))
+        enter(DemPhase::relaxing);
+      break;
+    case DemPhase::regrowing:
+      if (!regrowing_) enter(DemPhase::relaxing);
+      break;
+    case DemPhase::relaxing:
+      if (state_.phase_time > campaign_.dem.relaxation - same_time) enter(DemPhase::averaging);
+      break;
+    case DemPhase::averaging:
+      if (window_complete()) enter(DemPhase::done);
+      break;
+    case DemPhase::done:
+      break;
+  }
+}
+
+bool DemStage::window_complete() const {
+  const DemSettings& dem = campaign_.dem;
+  // The last block's sample is taken when the next one begins.
+  if (state_.phase_time < dem.window - same_time) return false;
+  if (dem.stop == DemSettings::Stop::duration) return true;
+  if (dem.relaxation + state_.phase_time > dem.at_most - same_time) return true;
+  std::vector<bool> bed(mesh_.cells());
+  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell)
+    bed[cell] = mesh_.cell_centre[cell][2] < campaign_.charging.stock_line;
+  return averages_.relative_error(bed) < dem.standard_error;
+}
+
+void DemStage::sample() {
+  const auto owned = engine_->owned();
+  const auto& falling = charging_.state().falling;
+  const auto sums = solids_.sums(5, [&](std::size_t i, std::span<double> value) {
+    if (falling.contains(owned[i].id)) return false;
+    const double volume = material_volume(campaign_, owned[i]);
+    value[0] = volume;
+    value[1] = contact_volume(owned[i]);
+    for (std::size_t k = 0; k < 3; ++k) value[2 + k] = volume * owned[i].displacement[k] / state_.last_block;
+    return true;
+  });
+  const std::size_t cells = mesh_.cells();
+  BedSample sample{std::vector<double>(cells), std::vector<double>(cells), std::vector<double>(3 * cells)};
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    sample.fraction[cell] = sums[5 * cell] / mesh_.cell_volume[cell];
+    sample.contact_fraction[cell] = sums[5 * cell + 1] / mesh_.cell_volume[cell];
+    for (std::size_t k = 0; k < 3; ++k) sample.flux[3 * cell + k] = sums[5 * cell + 2 + k] / mesh_.cell_volume[cell];
+  }
+  averages_.add(sample, state_.last_block);
+}
+
+double DemStage::temperature_at(const Parcel& parcel) const {
+  return temperature_.at(parcel.position, solids_.locator().find(parcel.position));
+}
+
+void DemStage::shrink_or_regrow() {
+  const auto owned = engine_->owned();
+  std::vector<double> radii(owned.size());
+  int growing = 0;
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    radii[i] = owned[i].radius;
+    if (!campaign_.species[static_cast<std::size_t>(owned[i].species)].softening) continue;
+    const double temperature = temperature_at(owned[i]);
+    radii[i] = state_.phase == DemPhase::regrowing ? regrow(campaign_, owned[i], temperature)
+                                                   : soften(campaign_, owned[i], temperature);
+    if (radii[i] > owned[i].radius) growing = 1;
+  }
+  engine_->resize(radii);
+  MPI_Allreduce(MPI_IN_PLACE, &growing, 1, MPI_INT, MPI_MAX, communicator_);
+  regrowing_ = growing != 0;
+}
+
+void DemStage::remove_parcels() {
+  std::vector<std::int64_t> gone;
+  std::vector<Parcel> staying;
+  for (const auto& parcel : parcels_) {
+    const Species& species = campaign_.species[static_cast<std::size_t>(parcel.species)];
+    if (species.softening && melted(campaign_, parcel, temperature_at(parcel))) {
+      books_.take_out_melted(parcel);
+      gone.push_back(parcel.id);
+    } else if (species.softening && parcel.position[2] < species.none_below) {
+      books_.take_out_unmelted(parcel);
+      gone.push_back(parcel.id);
+    } else {
+      staying.push_back(parcel);
+    }
+  }
+  if (moving()) {
+    const auto drawn = raceways_.remove(staying, state_.last_block, task_.random_seed, engine_->step(), books_);
+    gone.insert(gone.end(), drawn.begin(), drawn.end());
+    std::erase_if(
+        staying, [&](const Parcel& parcel) { return std::find(drawn.begin(), drawn.end(), parcel.id) != drawn.end(); });
+  }
+  if (gone.empty()) return;
+  engine_->remove(gone);
+  parcels_ = std::move(staying);
+  if (parcels_.empty())
+    throw Failure(ExitCode::diverged, "no parcel is left in the bed: the raceways take more than is charged")
+        .at("step", std::to_string(engine_->step()))
+        .advise("raceways", "a smaller dem_removal_rate");
+}
+
+void DemStage::charge() {
+  std::vector<Parcel> added;
+  state_.stock_height = bed_surface(campaign_, parcels_);
+  if (state_.phase == DemPhase::building) {
+    added = builder_.pour(parcels_, temperature_, state_.time, task_.random_seed, state_.next_id);
+    charging_.state().next_layer = builder_.next_layer();
+    books_.put_in(added, false);
+  } else {
+    charging_.see_landed(parcels_);
+    if (moving()) added = charging_.pour(parcels_, state_.stock_height, state_.time, task_.random_seed, state_.next_id);
+    books_.put_in(added, true);
+  }
+  if (added.empty()) return;
+  engine_->add(added);
+  parcels_.insert(parcels_.end(), added.begin(), added.end());
+}
+
+void DemStage::watch() {
+  if (state_.phase == DemPhase::building || state_.last_block <= 0) return;
+  const BedMotion motion = bed_motion(parcels_, charging_.state().falling, state_.last_block);
+  state_.mean_speed = motion.speed;
+  state_.fast_parcels += motion.fast;
+  if (state_.phase == DemPhase::settling) state_.creep_speed = motion.downwards;
+  const double overlap = largest_overlap(campaign_, parcels_, communicator_);
+  state_.largest_overlap = std::max(state_.largest_overlap, overlap);
+  if (rank_ != 0 || state_.phase == DemPhase::regrowing) return;
+  nlohmann::json by_species;
+  for (const auto& species : campaign_.species) by_species[species.name] = 0;
+  for (const auto& parcel : parcels_) {
+    auto& number = by_species[campaign_.species[static_cast<std::size_t>(parcel.species)].name];
+    number = number.get<std::int64_t>() + 1;
+  }
+  append_history(folder_, {{"step", engine_->step()},
+                           {"time", state_.time},
+                           {"phase", phase_name(state_.phase)},
+                           {"parcels", parcels_.size()},
+                           {"parcels_by_species", by_species},
+                           {"stock_height", state_.stock_height},
+                           {"mean_speed", state_.mean_speed},
+                           {"largest_overlap", overlap}});
+}
+
+double DemStage::wall_seconds() const { return state_.wall_before + seconds_since(started_); }
+
+void DemStage::report_progress(bool now) {
+  if (rank_ != 0 || (!now && seconds_since(last_progress_) < 1)) return;
+  const double wall = wall_seconds();
+  Progress progress;
+  progress.step = engine_->step();
+  progress.process_seconds = state_.time;
+  const double ahead = campaign_.dem.relaxation + campaign_.dem.window;
+  switch (state_.phase) {
+    case DemPhase::relaxing:
+      progress.process_seconds_total = state_.time - state_.phase_time + ahead;
+      break;
+    case DemPhase::averaging:
+    case DemPhase::done:
+      progress.process_seconds_total = state_.time - state_.phase_time + campaign_.dem.window;
+      break;
+    default:
+      progress.process_seconds_total = state_.time + ahead;
+  }
+  progress.process_seconds_total = std::max(progress.process_seconds_total, state_.time);
+  progress.wall_seconds = wall;
+  progress.rate = wall > progress_wall_ ? (state_.time - progress_time_) / (wall - progress_wall_) : 0;
+  progress.phase = phase_name(state_.phase);
+  progress.monitored = {{"parcels", static_cast<double>(parcels_.size())},
+                        {"stock_height", state_.stock_height},
+                        {"mean_speed", state_.mean_speed}};
+  write_progress(folder_, progress);
+  last_progress_ = Clock::now();
+  progress_time_ = state_.time;
+  progress_wall_ = wall;
+}
+
+}  // namespace cupola

@@ -1,0 +1,145 @@
+#include "stage_dem/gas_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/closures/gas_properties.hpp"
+#include "physics/projection/bed_state.hpp"
+#include "stage_dem/parcels.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double void_change_allowed = 0.02;
+constexpr std::int64_t most_blocks_between = 10;
+/// Interstitial speed below which the gas counts as at rest in the damping, m/s.
+constexpr double least_speed = 0.01;
+
+double norm(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// rms over the cells with solids of the change of the void fraction.
+double change_of_void(const std::vector<double>& now, const std::vector<double>& before,
+                      const std::vector<double>& volume) {
+  double sum = 0;
+  std::size_t cells = 0;
+  for (std::size_t cell = 0; cell < now.size(); ++cell) {
+    if (volume[cell] <= 0) continue;
+    sum += std::pow(now[cell] - before[cell], 2);
+    ++cells;
+  }
+  return cells > 0 ? std::sqrt(sum / static_cast<double>(cells)) : 0;
+}
+
+}  // namespace
+
+GasCoupling::GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign,
+                         std::vector<double> gas_temperature)
+    : mesh_(mesh), campaign_(campaign), flow_(foam, mesh, campaign), temperature_(std::move(gas_temperature)) {}
+
+void GasCoupling::update(const SolidsOnMesh& solids, bool in_any_case) {
+  const BedState bed = bed_state(mesh_, campaign_, solids.species_volume());
+  cells_at_floor_ = bed.cells_at_floor;
+  ++blocks_since_;
+  const bool first = void_solved_.empty();
+  if (!first && !in_any_case && blocks_since_ < most_blocks_between &&
+      change_of_void(bed.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
+    return;
+  flow_.solve(bed, temperature_, first ? 1e-4 : 1e-3, first ? 100 : 10);
+  void_solved_ = bed.void_fraction;
+  blocks_since_ = 0;
+  ++solves_;
+  pressure_ = flow_.pressure();
+  const std::size_t cells = mesh_.cells();
+  gradient_.resize(3 * cells);
+  mass_flux_.resize(3 * cells);
+  speed_.resize(cells);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      gradient_[3 * cell + k] = flow_.pressure_gradient()[cell][k];
+      mass_flux_[3 * cell + k] = flow_.mass_flux()[cell][k];
+    }
+    const double density = gas_density(pressure_[cell], temperature_[cell], campaign_.scene.gas->molar_mass);
+    speed_[cell] = norm(&mass_flux_[3 * cell]) / density / bed.void_fraction[cell];
+  }
+}
+
+std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
+                                             MPI_Comm communicator) {
+  std::vector<ParcelForce> forces(owned.size());
+  const auto& volume = solids.volume();
+  std::array<double, 3> total{};
+  for (std::size_t i = 0; i < owned.size(); ++i) {
+    ParcelForce& force = forces[i];
+    const double parcel_volume = material_volume(campaign_, owned[i]);
+    for (const auto& [index, share] : solids.shares(i)) {
+      const auto cell = static_cast<std::size_t>(index);
+      // V_ic / alpha_c, alpha_c = volume of solids in the cell over the cell's volume
+      const double weight = parcel_volume * share / volume[cell] * mesh_.cell_volume[cell];
+      for (std::size_t k = 0; k < 3; ++k) force.force[k] -= weight * gradient_[3 * cell + k];
+      force.damping += weight * norm(&gradient_[3 * cell]) / std::max(speed_[cell], least_speed);
+    }
+    for (std::size_t k = 0; k < 3; ++k) total[k] += force.force[k];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+  double scale = 0;
+  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
+    if (volume[cell] <= 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) total[k] += mesh_.cell_volume[cell] * gradient_[3 * cell + k];
+    scale += mesh_.cell_volume[cell] * norm(&gradient_[3 * cell]);
+  }
+  if (scale > 0) momentum_residual_ = std::max(momentum_residual_, norm(total.data()) / scale);
+  return forces;
+}
+
+std::vector<double> GasCoupling::velocity() const {
+  std::vector<double> velocity(mass_flux_.size());
+  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
+    const double density = gas_density(pressure_[cell], temperature_[cell], campaign_.scene.gas->molar_mass);
+    for (std::size_t k = 0; k < 3; ++k)
+      velocity[3 * cell + k] = mass_flux_[3 * cell + k] / density / void_solved_[cell];
+  }
+  return velocity;
+}
+
+nlohmann::json GasCoupling::summary() const {
+  nlohmann::json inlets = nlohmann::json::array();
+  for (const auto& inlet : flow_.inlets())
+    inlets.push_back({{"name", inlet.name},
+                      {"pressure", inlet.state.static_pressure},
+                      {"velocity", inlet.state.velocity},
+                      {"mach", inlet.state.mach_number}});
+  return {{"flow_solves", solves_},
+          {"cells_at_void_floor", cells_at_floor_},
+          {"inertia_over_drag_largest", flow_.inertia_over_drag_largest()},
+          {"inlets", inlets}};
+}
+
+void GasCoupling::save(HdfWriter& file) const {
+  if (void_solved_.empty()) return;
+  file.write("Gas/void_solved", void_solved_);
+  file.write("Gas/pressure", pressure_);
+  file.write("Gas/gradient", gradient_);
+  file.write("Gas/speed", speed_);
+  file.write("Gas/mass_flux", mass_flux_);
+  file.write("Gas/squared_pressure", flow_.warm_start().squared_pressure);
+  file.write("Gas/face_mass_flux", flow_.warm_start().face_mass_flux);
+  file.write("Gas/counters", std::vector<std::int64_t>{blocks_since_, solves_, cells_at_floor_});
+  file.write("Gas/momentum_residual", std::vector<double>{momentum_residual_});
+}
+
+void GasCoupling::load(const HdfReader& file) {
+  if (!file.has("Gas/void_solved")) return;
+  void_solved_ = file.doubles("Gas/void_solved");
+  pressure_ = file.doubles("Gas/pressure");
+  gradient_ = file.doubles("Gas/gradient");
+  speed_ = file.doubles("Gas/speed");
+  mass_flux_ = file.doubles("Gas/mass_flux");
+  flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
+  const auto counters = file.integers("Gas/counters", 3);
+  blocks_since_ = counters[0];
+  solves_ = counters[1];
+  cells_at_floor_ = counters[2];
+  momentum_residual_ = file.doubles("Gas/momentum_residual", 1)[0];
+}
+
+}  // namespace cupola

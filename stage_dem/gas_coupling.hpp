@@ -1,0 +1,59 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "physics/gas/bed_gas.hpp"
+#include "schemas/hdf.hpp"
+#include "stage_dem/solids_on_mesh.hpp"
+
+namespace cupola {
+
+/// The quasi-steady gas of the DEM stage (MODEL 14): the Darcy-Forchheimer flow through the bed as it stands, solved
+/// again when the bed has changed, and its force on the parcels,
+///     F_i = -sum_c (V_ic/alpha_c) grad p_c - K_i v_i,
+/// V_ic the parcel's material volume in cell c, alpha_c the solids fraction there.  The first part over all parcels is
+/// minus the integral of grad p over the cells with solids, to round-off (`momentum_residual`).  The second makes the
+/// force implicit in the parcel's velocity: K_i = sum_c (V_ic/alpha_c) |grad p_c|/|u_c| with the interstitial gas
+/// velocity u, so that a parcel carried along with the gas feels no force; LIGGGHTS evaluates it at every step.
+class GasCoupling {
+ public:
+  GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, std::vector<double> gas_temperature);
+
+  /// Solves the flow where the bed has changed: the void fraction, rms over cells with solids, by more than 0.02 since
+  /// the last solution, or ten blocks have gone by.  The criterion sees the state alone, so that a resumed run decides
+  /// the same.
+  /// @param in_any_case solve even where nothing has changed
+  void update(const SolidsOnMesh& solids, bool in_any_case = false);
+
+  /// Forces on the parcels last divided, in their order.
+  [[nodiscard]] std::vector<ParcelForce> forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
+                                                MPI_Comm communicator);
+
+  /// |sum of forces + integral of grad p over cells with solids| over the sum of |V grad p|, largest of all blocks.
+  [[nodiscard]] double momentum_residual() const { return momentum_residual_; }
+  [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }  ///< Pa, all cells
+  /// Interstitial velocity, cells x 3, m/s.
+  [[nodiscard]] std::vector<double> velocity() const;
+  /// Numbers for the report: flow solves, cells at the void floor, inlets, inertia left out.
+  [[nodiscard]] nlohmann::json summary() const;
+
+  void save(HdfWriter& file) const;
+  void load(const HdfReader& file);
+
+ private:
+  const BedMesh& mesh_;
+  const Campaign& campaign_;
+  DarcyForchheimer flow_;
+  std::vector<double> temperature_;  ///< K, all cells
+  std::vector<double> void_solved_;  ///< void fraction the last solution saw; empty: none yet
+  std::vector<double> pressure_;     ///< Pa
+  std::vector<double> gradient_;     ///< Pa/m, cells x 3
+  std::vector<double> speed_;        ///< m/s, |interstitial velocity|
+  std::vector<double> mass_flux_;    ///< kg/m2/s, cells x 3
+  std::int64_t blocks_since_ = 0;
+  std::int64_t solves_ = 0;
+  std::int64_t cells_at_floor_ = 0;
+  double momentum_residual_ = 0;
+};
+
+}  // namespace cupola

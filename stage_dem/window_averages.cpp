@@ -1,0 +1,150 @@
+#include "stage_dem/window_averages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cupola {
+namespace {
+
+constexpr std::size_t integrals = 5;
+/// Times are sums of whole blocks: less than this apart they are the same.
+constexpr double same_time = 1e-9;
+
+}  // namespace
+
+WindowAverages::WindowAverages(std::size_t cells, double batch_seconds)
+    : cells_(cells),
+      batch_seconds_(batch_seconds),
+      running_(cells * integrals),
+      total_(cells * integrals),
+      sum_(cells * columns),
+      sum_of_squares_(cells * columns),
+      sum_of_products_(cells * columns),
+      last_(cells * columns),
+      first_(cells * columns) {}
+
+void WindowAverages::add(const BedSample& sample, double seconds) {
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    double* integral = &running_[cell * integrals];
+    integral[0] += seconds * sample.fraction[cell];
+    for (std::size_t k = 0; k < 3; ++k) integral[1 + k] += seconds * sample.flux[3 * cell + k];
+    integral[4] += seconds * sample.contact_fraction[cell];
+  }
+  running_seconds_ += seconds;
+  seconds_ += seconds;
+  if (running_seconds_ > batch_seconds_ - same_time) close_batch();
+}
+
+void WindowAverages::close_batch() {
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    const double* integral = &running_[cell * integrals];
+    std::array<double, columns> mean{integral[0] / running_seconds_, 0, 0, 0};
+    for (std::size_t k = 0; k < 3; ++k) mean[1 + k] = integral[0] > 0 ? integral[1 + k] / integral[0] : 0;
+    for (std::size_t k = 0; k < columns; ++k) {
+      const std::size_t i = cell * columns + k;
+      sum_[i] += mean[k];
+      sum_of_squares_[i] += mean[k] * mean[k];
+      if (batches_ > 0) sum_of_products_[i] += mean[k] * last_[i];
+      if (batches_ == 0) first_[i] = mean[k];
+      last_[i] = mean[k];
+    }
+  }
+  for (std::size_t i = 0; i < running_.size(); ++i) total_[i] += running_[i];
+  std::fill(running_.begin(), running_.end(), 0.0);
+  running_seconds_ = 0;
+  ++batches_;
+}
+
+double WindowAverages::widening(double successive, double squares) const {
+  if (squares <= 0 || batches_ < 3) return 1;
+  const double n = static_cast<double>(batches_);
+  const double correlation = std::clamp(successive / (n - 1) / (squares / n), 0.0, 0.8);
+  return std::sqrt((1 + correlation) / (1 - correlation));
+}
+
+WindowAverages::Fields WindowAverages::fields() const {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Fields fields;
+  fields.fraction.resize(cells_);
+  fields.contact_fraction.resize(cells_);
+  fields.fraction_error.assign(cells_, none);
+  fields.velocity.assign(3 * cells_, 0.0);
+  fields.velocity_error.assign(3 * cells_, none);
+  const double n = static_cast<double>(batches_);
+  std::vector<double> variance(cells_ * columns);
+  // Pooled over cells: sums of squared deviations and of products of successive ones, for fraction and velocity apart.
+  std::array<double, 2> squares{}, successive{};
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    const double* closed = &total_[cell * integrals];
+    const double* open = &running_[cell * integrals];
+    const double fraction = closed[0] + open[0];
+    if (seconds_ > 0) {
+      fields.fraction[cell] = fraction / seconds_;
+      fields.contact_fraction[cell] = (closed[4] + open[4]) / seconds_;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (fraction > 0) fields.velocity[3 * cell + k] = (closed[1 + k] + open[1 + k]) / fraction;
+    for (std::size_t k = 0; k < columns; ++k) {
+      const std::size_t i = cell * columns + k;
+      const double mean = n > 0 ? sum_[i] / n : 0;
+      variance[i] = std::max(0.0, sum_of_squares_[i] - n * mean * mean);
+      squares[k == 0 ? 0 : 1] += variance[i];
+      // sum over successive pairs of (b_j - mean)(b_(j-1) - mean)
+      successive[k == 0 ? 0 : 1] +=
+          sum_of_products_[i] - mean * (2 * sum_[i] - first_[i] - last_[i]) + (n - 1) * mean * mean;
+    }
+  }
+  if (batches_ < 2) return fields;
+  const std::array<double, 2> wide{widening(successive[0], squares[0]), widening(successive[1], squares[1])};
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    fields.fraction_error[cell] = wide[0] * std::sqrt(variance[cell * columns] / (n * (n - 1)));
+    for (std::size_t k = 0; k < 3; ++k)
+      fields.velocity_error[3 * cell + k] = wide[1] * std::sqrt(variance[cell * columns + 1 + k] / (n * (n - 1)));
+  }
+  return fields;
+}
+
+double WindowAverages::relative_error(const std::vector<bool>& cells) const {
+  if (batches_ < 2) return std::numeric_limits<double>::quiet_NaN();
+  const Fields found = fields();
+  double error = 0;
+  double square = 0;
+  for (std::size_t cell = 0; cell < cells_; ++cell) {
+    if (!cells[cell]) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      error += found.fraction[cell] * std::pow(found.velocity_error[3 * cell + k], 2);
+      square += found.fraction[cell] * std::pow(found.velocity[3 * cell + k], 2);
+    }
+  }
+  return square > 0 ? std::sqrt(error / square) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void WindowAverages::save(HdfWriter& file) const {
+  file.write("Averages/running", running_);
+  file.write("Averages/total", total_);
+  file.write("Averages/sum", sum_);
+  file.write("Averages/sum_of_squares", sum_of_squares_);
+  file.write("Averages/sum_of_products", sum_of_products_);
+  file.write("Averages/last", last_);
+  file.write("Averages/first", first_);
+  file.write("Averages/seconds", std::vector<double>{seconds_, running_seconds_});
+  file.write("Averages/batches", std::vector<std::int64_t>{batches_});
+}
+
+void WindowAverages::load(const HdfReader& file) {
+  running_ = file.doubles("Averages/running", static_cast<std::int64_t>(running_.size()));
+  total_ = file.doubles("Averages/total", static_cast<std::int64_t>(total_.size()));
+  const auto rows = static_cast<std::int64_t>(sum_.size());
+  sum_ = file.doubles("Averages/sum", rows);
+  sum_of_squares_ = file.doubles("Averages/sum_of_squares", rows);
+  sum_of_products_ = file.doubles("Averages/sum_of_products", rows);
+  last_ = file.doubles("Averages/last", rows);
+  first_ = file.doubles("Averages/first", rows);
+  const auto seconds = file.doubles("Averages/seconds", 2);
+  seconds_ = seconds[0];
+  running_seconds_ = seconds[1];
+  batches_ = file.integers("Averages/batches", 1)[0];
+}
+
+}  // namespace cupola

@@ -1,0 +1,171 @@
+// The program cupola-dem as the orchestrator uses it: prepare, run under mpirun, stop, go on.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <numeric>
+#include <thread>
+
+#include "schemas/campaign_reader.hpp"
+#include "schemas/field_file.hpp"
+#include "schemas/files.hpp"
+#include "schemas/task.hpp"
+#include "schemas/version.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace cupola {
+namespace {
+
+pid_t start(const std::vector<std::string>& words) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  std::vector<char*> arguments;
+  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  execvp(arguments[0], arguments.data());
+  _exit(127);
+}
+
+int wait_for(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::vector<std::string> stage_command(const std::filesystem::path& folder, int ranks) {
+  return {CUPOLA_MPIEXEC, "--oversubscribe",     "--bind-to", "none",
+          "-n",           std::to_string(ranks), CUPOLA_DEM,  folder.string()};
+}
+
+Task tiny_task(int ranks) {
+  Task task;
+  task.kind = TaskKind::dem;
+  task.campaign = load_campaign(CUPOLA_TINY);
+  task.campaign.launch.ranks = ranks;
+  task.campaign.dem.relaxation = 0.1;
+  task.campaign.dem.window = 0.3;
+  task.campaign.charging.stock_line = 1.6;
+  task.campaign_hash = hash_text("tiny");
+  task.program_version = program_version;
+  task.random_seed = 11;
+  return task;
+}
+
+void prepare_task(const std::filesystem::path& folder, const Task& task) {
+  std::filesystem::create_directories(folder);
+  write_task(folder, task);
+  ASSERT_EQ(wait_for(start({CUPOLA_DEM, "prepare", folder.string()})), 0);
+}
+
+double sum(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// What must hold of any result.
+void check_result(const std::filesystem::path& folder, const Task& task) {
+  verify_manifest(folder);
+  const FieldFile result(folder / "result.hdf", "dem-result");
+  const auto summary = result.summary();
+  EXPECT_LT(std::abs(summary.at("ledger").at("residual").get<double>()), 1e-13);
+  EXPECT_LT(summary.at("momentum_residual").get<double>(), 1e-12);
+  EXPECT_GT(summary.at("packing_fraction").get<double>(), 0.4);
+  EXPECT_LT(summary.at("packing_fraction").get<double>(), 0.75);
+  EXPECT_NEAR(summary.at("window_seconds").get<double>(), task.campaign.dem.window, 1e-9);
+  EXPECT_GT(summary.at("coke_removal_rate").get<double>(), 0);
+
+  // The material volume of all parcels that are in the mesh is in the species' fractions.
+  const HdfReader& file = result.hdf();
+  const HdfReader mesh(folder / "foam" / "mesh.hdf");
+  const auto volume = mesh.doubles("Mesh/cell_volume");
+  double on_mesh = 0;
+  for (const auto& species : task.campaign.species) {
+    const auto fraction = result.cell_data("solids_fraction." + species.name);
+    for (std::size_t cell = 0; cell < volume.size(); ++cell) on_mesh += fraction[cell] * volume[cell];
+  }
+  const auto species = file.integers("Packing/species");
+  const auto mass = file.doubles("Packing/mass");
+  const auto position = file.doubles("Packing/position");
+  double of_parcels = 0;
+  for (std::size_t i = 0; i < mass.size(); ++i)
+    if (position[3 * i + 2] < task.campaign.top())
+      of_parcels += mass[i] / task.campaign.species[static_cast<std::size_t>(species[i])].density;
+  EXPECT_NEAR(on_mesh, of_parcels, 1e-12 * of_parcels);
+  EXPECT_NEAR(sum(mass), summary.at("ledger").at("mass_stored").get<double>(), 1e-9);
+  for (const double value : result.cell_data("solids_velocity", 3)) EXPECT_TRUE(std::isfinite(value));
+}
+
+void expect_same_results(const std::filesystem::path& one, const std::filesystem::path& other) {
+  const FieldFile a(one / "result.hdf", "dem-result");
+  const FieldFile b(other / "result.hdf", "dem-result");
+  EXPECT_EQ(a.hdf().integers("Packing/id"), b.hdf().integers("Packing/id"));
+  for (const char* name : {"position", "velocity", "angular_velocity", "radius"})
+    EXPECT_EQ(a.hdf().doubles(std::string("Packing/") + name), b.hdf().doubles(std::string("Packing/") + name)) << name;
+  for (const char* name : {"solids_fraction", "solids_fraction_error", "contact_fraction", "gas_pressure"})
+    EXPECT_EQ(a.cell_data(name), b.cell_data(name)) << name;
+  for (const char* name : {"solids_velocity", "solids_velocity_error", "gas_velocity"})
+    EXPECT_EQ(a.cell_data(name, 3), b.cell_data(name, 3)) << name;
+}
+
+class DemProgram : public testing::TestWithParam<int> {};
+
+TEST_P(DemProgram, RunsStopsAndGoesOnAsIfNothingHadHappened) {
+  const TemporaryFolder temporary;
+  const int ranks = GetParam();
+  const Task task = tiny_task(ranks);
+  const auto undisturbed = temporary.path() / "undisturbed";
+  prepare_task(undisturbed, task);
+  ASSERT_EQ(wait_for(start(stage_command(undisturbed, ranks))), 0) << read_text(undisturbed / "stage.log");
+  check_result(undisturbed, task);
+
+  const auto stopped = temporary.path() / "stopped";
+  prepare_task(stopped, task);
+  // Once while the bed is poured, once in the window.
+  int stops = 0;
+  for (const std::string phase : {"building", "averaging"}) {
+    const pid_t child = start(stage_command(stopped, ranks));
+    for (int wait = 0; wait < 6000; ++wait) {
+      const auto progress = read_progress(stopped);
+      const auto history = read_history(stopped);
+      const bool there = phase == "building" ? progress && progress->phase == phase
+                                             : !history.empty() && history.back().at("phase") == phase;
+      if (there || kill(child, 0) != 0) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    kill(child, SIGUSR1);
+    const int code = wait_for(child);
+    EXPECT_TRUE(code == 75 || code == 0) << "exit status " << code;
+    if (code == 75) ++stops;
+    EXPECT_EQ(has_manifest(stopped), code == 0);
+  }
+  EXPECT_GE(stops, 1) << "the stage was never caught running";
+  ASSERT_EQ(wait_for(start(stage_command(stopped, ranks))), 0) << read_text(stopped / "stage.log");
+  expect_same_results(undisturbed, stopped);
+  EXPECT_EQ(read_history(undisturbed), read_history(stopped));
+
+  // The next episode starts from this packing.
+  Task next = task;
+  next.episode = 2;
+  next.inputs["packing"] = {"../undisturbed/result.hdf", hash_file(undisturbed / "result.hdf")};
+  const auto second = temporary.path() / "second";
+  prepare_task(second, next);
+  ASSERT_EQ(wait_for(start(stage_command(second, ranks))), 0) << read_text(second / "stage.log");
+  check_result(second, next);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ranks, DemProgram, testing::Values(1, 2));
+
+TEST(DemProgram, AWrongTaskIsRefused) {
+  const TemporaryFolder temporary;
+  EXPECT_EQ(wait_for(start({CUPOLA_DEM, (temporary.path() / "nowhere").string()})), 74);
+  Task task = tiny_task(1);
+  task.kind = TaskKind::tracer;
+  write_task(temporary.path(), task);
+  EXPECT_EQ(wait_for(start({CUPOLA_DEM, temporary.path().string()})), 65);
+  EXPECT_TRUE(read_failure(temporary.path()));
+}
+
+}  // namespace
+}  // namespace cupola
