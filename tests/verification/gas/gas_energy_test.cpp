@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/gas/bed_gas.hpp"
+#include "schemas/failure.hpp"
+#include "tests/support/foam_scene.hpp"
+#include "tests/support/furnaces.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double inlet_temperature = 2600;
+constexpr double solids_temperature = 500;
+
+/// The box blown from below with a gas that does not conduct: a one-dimensional exchanger.
+Campaign exchanger(double cell) {
+  Campaign campaign = furnaces::box();
+  campaign.scene.mesh.cell = cell;
+  campaign.scene.gas->prandtl = 1e12;
+  campaign.scene.gas->inlets[0].total_temperature = inlet_temperature;
+  return campaign;
+}
+
+/// Solids of one temperature with `transfer_units` in the whole bed.
+SolidsExchange solids(const BedMesh& mesh, const Campaign& campaign, double transfer_units) {
+  const auto& gas = *campaign.scene.gas;
+  const double whole = transfer_units * gas.inlets[0].mass_flow * gas.heat_capacity;
+  double volume = 0;
+  for (const double v : mesh.cell_volume) volume += v;
+  SolidsExchange exchange;
+  for (const double v : mesh.cell_volume) {
+    exchange.conductance.push_back(whole * v / volume);
+    exchange.conductance_temperature.push_back(whole * v / volume * solids_temperature);
+  }
+  return exchange;
+}
+
+double top_temperature(double cell, double transfer_units) {
+  const Campaign campaign = exchanger(cell);
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  GasEnergy energy(scene.foam, scene.mesh, campaign);
+  const auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
+  flow.solve(bed, energy.temperature(), 1e-9, 50);
+  energy.solve(flow, bed, solids(scene.mesh, campaign, transfer_units));
+  EXPECT_LT(std::abs(energy.ledger().residual), 1e-10);
+  return energy.ledger().top_gas_temperature;
+}
+
+TEST(GasEnergy, ExchangeIsTheUpwindSolutionAndTendsToTheExponential) {
+  const double units = 1.5;
+  const double exact = solids_temperature + (inlet_temperature - solids_temperature) * std::exp(-units);
+  std::vector<double> errors;
+  for (const int rows : {15, 30}) {
+    const double found = top_temperature(1.5 / rows, units);
+    const double upwind = solids_temperature + (inlet_temperature - solids_temperature) *
+                                                   std::pow(1 + units / rows, -static_cast<double>(rows));
+    EXPECT_NEAR(found, upwind, 1e-7);
+    errors.push_back(std::abs(found - exact));
+  }
+  // First order in the cell's height.
+  EXPECT_NEAR(errors[0] / errors[1], 2, 0.1);
+}
+
+TEST(GasEnergy, WallLossIsExactAndInTheLedger) {
+  Campaign campaign = exchanger(0.1);
+  // One cell from wall to wall on either side of the middle.
+  campaign.scene.geometry.profile = {{0, 0.1}, {1.5, 0.1}};
+  campaign.scene.geometry.sides = Geometry::Sides::periodic;
+  campaign.species[0].coarse_graining = campaign.species[1].coarse_graining = 1;
+  campaign.scene.heat_loss = WallHeatLoss{200, 300};
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  GasEnergy energy(scene.foam, scene.mesh, campaign);
+  const auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
+  flow.solve(bed, energy.temperature(), 1e-9, 50);
+  energy.solve(flow, bed, solids(scene.mesh, campaign, 0));
+  const auto& gas = *campaign.scene.gas;
+  const double per_row = 200 * 2 * 0.4 * 0.1 / (gas.inlets[0].mass_flow * gas.heat_capacity);
+  EXPECT_NEAR(energy.ledger().top_gas_temperature, 300 + (inlet_temperature - 300) * std::pow(1 + per_row, -15), 1e-6);
+  EXPECT_GT(energy.ledger().walls, 0.05 * energy.ledger().blast);
+  EXPECT_EQ(energy.ledger().to_solids, 0);
+  EXPECT_LT(std::abs(energy.ledger().residual), 1e-10);
+}
+
+TEST(GasEnergy, ConductionAloneReachesStagnantCells) {
+  // A closed pocket, here a bed so tight above the bottom's left half that nothing flows through it, is still solved.
+  Campaign campaign = furnaces::box();
+  campaign.scene.gas->inlets[0].total_temperature = inlet_temperature;
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  GasEnergy energy(scene.foam, scene.mesh, campaign);
+  auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
+  for (std::size_t cell = 0; cell < scene.mesh.cells(); ++cell) {
+    if (scene.mesh.cell_centre[cell][0] < -0.1 && scene.mesh.cell_centre[cell][2] > 0.3)
+      bed.grain_diameter[cell] = 1e-6;
+  }
+  flow.solve(bed, energy.temperature(), 1e-6, 50);
+  const auto& temperature = energy.solve(flow, bed, solids(scene.mesh, campaign, 0));
+  for (const double t : temperature) EXPECT_NEAR(t, inlet_temperature, 1e-4);
+}
+
+TEST(GasEnergy, StaysBetweenBlastAndSolidsInAFurnace) {
+  Campaign campaign = furnaces::shaft();
+  campaign.scene.heat_loss = WallHeatLoss{20, 293};
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  GasEnergy energy(scene.foam, scene.mesh, campaign);
+  auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
+  SolidsExchange exchange;
+  for (std::size_t cell = 0; cell < scene.mesh.cells(); ++cell) {
+    const bool freeboard = scene.mesh.cell_centre[cell][2] > 6.1;
+    if (freeboard) bed.void_fraction[cell] = 1;
+    const double conductance = freeboard ? 0 : 800 * scene.mesh.cell_volume[cell];
+    exchange.conductance.push_back(conductance);
+    exchange.conductance_temperature.push_back(conductance * (400 + 200 * std::sin(scene.mesh.cell_centre[cell][2])));
+  }
+  // Flow and temperature depend on each other: a few turns.
+  for (int turn = 0; turn < 6; ++turn) {
+    flow.solve(bed, energy.temperature(), 1e-4, 20);
+    energy.solve(flow, bed, exchange);
+    EXPECT_LT(std::abs(energy.ledger().residual), 1e-10);
+  }
+  const auto& temperature = energy.temperature();
+  EXPECT_GT(*std::min_element(temperature.begin(), temperature.end()), 200);
+  EXPECT_LE(*std::max_element(temperature.begin(), temperature.end()), inlet_temperature);
+  const auto& ledger = energy.ledger();
+  EXPECT_NEAR(ledger.blast, 2.8 * campaign.scene.gas->heat_capacity * (inlet_temperature - 293), 1e-9 * ledger.blast);
+  EXPECT_GT(ledger.to_solids, 0.5 * ledger.blast);
+  EXPECT_GT(ledger.walls, 0);
+}
+
+TEST(GasEnergy, ACellWithoutGasIsNamed) {
+  const Campaign campaign = exchanger(0.1);
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  GasEnergy energy(scene.foam, scene.mesh, campaign);
+  auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
+  flow.solve(bed, energy.temperature(), 1e-6, 50);
+  bed.void_fraction[3] = 0;
+  try {
+    energy.solve(flow, bed, solids(scene.mesh, campaign, 1));
+    FAIL();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::diverged);
+    EXPECT_EQ(failure.where().at("cell"), "3");
+  }
+}
+
+}  // namespace
+}  // namespace cupola
