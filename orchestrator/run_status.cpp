@@ -65,6 +65,9 @@ void describe_rest(const RunRecord& run, json& status) {
   if (event == "stage-failed") {
     status["state"] = "failed";
     status["message"] = (*last)["failure"].value("sentence", "");
+  } else if (event == "result-refused") {
+    status["state"] = "failed";
+    status["message"] = (*last)["sentence"];
   }
 }
 

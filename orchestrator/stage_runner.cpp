@@ -58,25 +58,25 @@ json StageRunner::about(const StagePlace& place) const {
 std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
                                                          const std::map<std::string, std::filesystem::path>& inputs) {
   Patience patience;
-  while (signals_.stop_requests() == 0) {
+  for (;;) {
     const StageState state = stage_state(run_.path(), run_.journal().records(), place.episode, place.kind);
     place.attempt = state.attempt;
+    if (state.condition == Condition::finished) {
+      accept(place, state);
+      return state.folder;
+    }
+    if (signals_.stop_requests() > 0) return std::nullopt;
     switch (state.condition) {
-      case Condition::finished:
-        accept(place, state);
-        return state.folder;
       case Condition::running:
         wait_for_orphan(place, state);
         break;
       case Condition::failed:
         begin_retry(place, state, patience);
         break;
-      case Condition::absent:
-      case Condition::interrupted:
+      default:
         if (!run_attempt(place, inputs, patience)) return std::nullopt;
     }
   }
-  return std::nullopt;
 }
 
 void StageRunner::accept(const StagePlace& place, const StageState& state) {
@@ -91,8 +91,14 @@ void StageRunner::accept(const StagePlace& place, const StageState& state) {
     verify_manifest(state.folder);
     return;
   }
-  check_result(state.folder, place.kind, run_.campaign(), run_.campaign_hash());
   json content = about(place);
+  try {
+    check_result(state.folder, place.kind, run_.campaign(), run_.campaign_hash());
+  } catch (const Failure& refusal) {
+    content["sentence"] = refusal.what();
+    run_.journal().append("result-refused", content);
+    throw;
+  }
   content["manifest_hash"] = manifest_hash;
   content["result_hash"] = hash_file(state.folder / "result.hdf");
   run_.journal().append("stage-finished", content);
@@ -163,7 +169,6 @@ bool StageRunner::run_attempt(const StagePlace& place, const std::map<std::strin
   // What an earlier start complained of (a full disk, say) is in the journal; this start may do better.
   std::filesystem::remove(task / "failure.json");
   if (!was_prepared(run_.journal().records(), place, task)) {
-    std::filesystem::remove_all(task / "foam");
     const int status = run_to_end(place, launcher_.prepare(place.kind, task), "stage-preparing", false);
     if (status != 0) return judge_end(place, status, patience);
     run_.journal().append("stage-prepared", about(place));

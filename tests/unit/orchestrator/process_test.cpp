@@ -52,7 +52,8 @@ TEST(ChildProcess, DoesNothingBeforeItIsReleased) {
   const TemporaryFolder folder;
   SignalWatch signals;
   {
-    ChildProcess process(shell("touch " + (folder.path() / "done").string(), folder.path() / "log"), signals.former_mask());
+    ChildProcess process(shell("touch " + (folder.path() / "done").string(), folder.path() / "log"),
+                         signals.former_mask());
     std::this_thread::sleep_for(100ms);
     EXPECT_FALSE(process.poll());
   }
@@ -75,10 +76,10 @@ TEST(ChildProcess, ThatCannotBeStartedSaysSo) {
 TEST(ChildProcess, HasASessionOfItsOwnAndHearsSignals) {
   const TemporaryFolder folder;
   SignalWatch signals;
-  ChildProcess process(shell("trap 'exit 75' USR1; : > " + (folder.path() / "ready").string() +
-                                 "; while :; do sleep 0.05; done",
-                             folder.path() / "log"),
-                       signals.former_mask());
+  ChildProcess process(
+      shell("trap 'exit 75' USR1; : > " + (folder.path() / "ready").string() + "; while :; do sleep 0.05; done",
+            folder.path() / "log"),
+      signals.former_mask());
   process.release();
   while (!std::filesystem::exists(folder.path() / "ready")) signals.wait(20ms);
   EXPECT_EQ(::getsid(process.pid()), process.pid());

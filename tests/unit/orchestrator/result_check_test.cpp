@@ -63,11 +63,12 @@ cupola::EpisodeFolders write_episode(const std::filesystem::path& folder, const 
   tracer.cell_data("solids_temperature", {2 * episode.temperature, episode.temperature});
   tracer.hdf().write("CohesiveZone/height_melted", std::vector<double>{episode.height, episode.height});
   tracer.hdf().write("CohesiveZone/area", std::vector<double>{1, 1});
-  tracer.summary({{"scale", 0.01},
-                  {"cohesive_zone", {{"height_mean", nullptr}}},
-                  {"ledger",
-                   {{"mass", {{"in", 100}, {"out", {{"unmelted", episode.unmelted}}}, {"residual", episode.mass_residual}}},
-                    {"energy", {{"residual", episode.energy_residual}}}}}});
+  tracer.summary(
+      {{"scale", 0.01},
+       {"cohesive_zone", {{"height_mean", nullptr}}},
+       {"ledger",
+        {{"mass", {{"in", 100}, {"out", {{"unmelted", episode.unmelted}}}, {"residual", episode.mass_residual}}},
+         {"energy", {{"residual", episode.energy_residual}}}}}});
   tracer.commit();
   cupola::write_manifest(folders.dem);
   cupola::write_manifest(folders.tracer);

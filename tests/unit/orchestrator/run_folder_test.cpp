@@ -58,7 +58,8 @@ TEST(RunFolder, FreezesTheCampaign) {
 TEST(RunFolder, IsOpenedAgainByTheSameCampaignWrittenOtherwise) {
   const TemporaryFolder folder;
   RunFolder::for_campaign(tiny, folder.path() / "run");
-  const auto again = RunFolder::for_campaign(changed_tiny(folder, "tiny\n", "tiny  # the same\n"), folder.path() / "run");
+  const auto again =
+      RunFolder::for_campaign(changed_tiny(folder, "tiny\n", "tiny  # the same\n"), folder.path() / "run");
   EXPECT_EQ(again->campaign_hash(), cupola::hash_file(tiny)) << "the frozen one counts";
 }
 
@@ -123,8 +124,10 @@ TEST(ChangedKey, IsCheckedLikeAnyCampaign) {
   const cupola::Campaign campaign = cupola::load_campaign(tiny);
   EXPECT_EQ(cupola::with_changed_key(campaign, "dem.time_step", "1e-5").dem.time_step, 1e-5);
   EXPECT_EQ(cupola::with_changed_key(campaign, "tracer.time_step", "2 s").tracer.time_step, 2.);
-  EXPECT_EQ(failure_of([&] { cupola::with_changed_key(campaign, "dem.time_stop", "1"); }).code(), ExitCode::wrong_input);
-  EXPECT_EQ(failure_of([&] { cupola::with_changed_key(campaign, "dam.time_step", "1"); }).code(), ExitCode::wrong_input);
+  EXPECT_EQ(failure_of([&] { cupola::with_changed_key(campaign, "dem.time_stop", "1"); }).code(),
+            ExitCode::wrong_input);
+  EXPECT_EQ(failure_of([&] { cupola::with_changed_key(campaign, "dam.time_step", "1"); }).code(),
+            ExitCode::wrong_input);
   EXPECT_EQ(failure_of([&] { cupola::with_changed_key(campaign, "dem.time_step", "5 m"); }).code(),
             ExitCode::wrong_input);
 }
