@@ -1,0 +1,157 @@
+#include "stage_tracer/conduction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/closures/carson.hpp"
+#include "physics/closures/layer_exchange.hpp"
+
+namespace cupola {
+namespace {
+
+constexpr double tolerance = 1e-6;  // K
+
+/// Area over the distance of the cell centres along the face normal.
+double area_over_distance(const BedMesh& mesh, std::size_t face, std::int64_t other_face, std::int64_t neighbour) {
+  const Vector3& area = mesh.face_area[face];
+  double square = 0;
+  double along = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double to_face = mesh.face_centre[face][k] - mesh.cell_centre[mesh.face_owner[face]][k];
+    const double from_face = mesh.cell_centre[neighbour][k] - mesh.face_centre[other_face][k];
+    square += area[k] * area[k];
+    along += area[k] * (to_face + from_face);
+  }
+  return square / along;
+}
+
+}  // namespace
+
+Conduction::Conduction(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
+                       std::vector<double> thickness, std::vector<double> recipe_share)
+    : mesh_(mesh),
+      campaign_(campaign),
+      bed_(bed),
+      thickness_(std::move(thickness)),
+      recipe_share_(std::move(recipe_share)) {
+  for (std::size_t f = 0; f < mesh.faces(); ++f) {
+    const std::int64_t owner = mesh.face_owner[f];
+    const std::int64_t neighbour = mesh.face_neighbour[f];
+    if (neighbour < 0 || neighbour == owner || !bed[owner] || !bed[neighbour]) continue;
+    const std::int64_t partner = mesh.face_partner[f];
+    if (partner >= 0 && partner < static_cast<std::int64_t>(f)) continue;  // a periodic pair counts once
+    const std::int64_t other_face = partner >= 0 ? partner : static_cast<std::int64_t>(f);
+    neighbours_.push_back({owner, neighbour, area_over_distance(mesh, f, other_face, neighbour)});
+  }
+}
+
+std::vector<Link> Conduction::links(const CellContents& contents, const BySpecies& bed_volume) const {
+  const std::size_t cells = mesh_.cells();
+  const std::size_t species = campaign_.species.size();
+  std::vector<double> solids(cells, 0.0);
+  for (const auto& volume : bed_volume) {
+    for (std::size_t c = 0; c < cells; ++c) solids[c] += volume[c];
+  }
+  // Share of each species, zero where no tracer holds its heat.
+  BySpecies share = bed_volume;
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      share[s][c] = solids[c] > 0 && contents.volume[s][c] > 1e-9 * mesh_.cell_volume[c] ? share[s][c] / solids[c] : 0;
+    }
+  }
+  std::vector<Link> result;
+  std::vector<std::vector<double>> conductivity(species, std::vector<double>(cells));
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      conductivity[s][c] = bed_conductivity_carson(campaign_.species[s].conductivity, solids[c] / mesh_.cell_volume[c]);
+    }
+    for (const Neighbours& pair : neighbours_) {
+      const double a = conductivity[s][pair.first];
+      const double b = conductivity[s][pair.second];
+      const double overlap = std::min(share[s][pair.first], share[s][pair.second]);
+      if (a <= 0 || b <= 0 || overlap <= 0) continue;
+      result.push_back({s * cells + static_cast<std::size_t>(pair.first),
+                        s * cells + static_cast<std::size_t>(pair.second),
+                        overlap * 2 * a * b / (a + b) * pair.area_over_distance});
+    }
+  }
+  for (std::size_t a = 0; a < species; ++a) {
+    for (std::size_t b = a + 1; b < species; ++b) {
+      const double recipe = recipe_share_[a] * recipe_share_[b];
+      if (recipe <= 0) continue;
+      for (std::size_t c = 0; c < cells; ++c) {
+        const double weight = std::min(1.0, share[a][c] * share[b][c] / recipe);
+        if (weight <= 0) continue;
+        const double exchange = layer_exchange(thickness_[a], conductivity[a][c], thickness_[b], conductivity[b][c]);
+        if (exchange > 0) result.push_back({a * cells + c, b * cells + c, weight * exchange * mesh_.cell_volume[c]});
+      }
+    }
+  }
+  return result;
+}
+
+Conduction::Result Conduction::advance(const CellContents& contents, const BySpecies& bed_volume, double step) const {
+  const std::size_t cells = mesh_.cells();
+  const std::size_t species = campaign_.species.size();
+  std::vector<double> capacity(species * cells);
+  std::vector<double> temperature(species * cells);
+  std::vector<double> diagonal(species * cells);
+  std::vector<double> source(species * cells);
+  for (std::size_t s = 0; s < species; ++s) {
+    const double heat = campaign_.species[s].density * campaign_.species[s].heat_capacity;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const std::size_t i = s * cells + c;
+      capacity[i] = heat * contents.volume[s][c];
+      temperature[i] = contents.temperature[s][c];
+      diagonal[i] = capacity[i] / step;
+      source[i] = diagonal[i] * temperature[i];
+    }
+  }
+  const std::vector<Link> network = links(contents, bed_volume);
+  Result result;
+  result.iterations = solve_network(network, diagonal, source, temperature, tolerance);
+  const std::vector<double> inflow = network_inflow(network, temperature);
+  result.change.assign(species, std::vector<double>(cells, 0.0));
+  for (std::size_t i = 0; i < inflow.size(); ++i) {
+    if (capacity[i] > 0) result.change[i / cells][i % cells] = inflow[i] * step / capacity[i];
+  }
+  return result;
+}
+
+BySpecies Conduction::steady(const CellContents& contents, const BySpecies& bed_volume, const std::vector<bool>& free,
+                             const BySpecies& gas_conductance, const BySpecies& gas_temperature) const {
+  const std::size_t cells = mesh_.cells();
+  const std::size_t species = campaign_.species.size();
+  const std::vector<Link> network = links(contents, bed_volume);
+  std::vector<double> temperature(species * cells);
+  std::vector<double> diagonal(species * cells, 0.0);
+  std::vector<double> source(species * cells, 0.0);
+  for (std::size_t i = 0; i < temperature.size(); ++i) {
+    const std::size_t s = i / cells;
+    const std::size_t c = i % cells;
+    temperature[i] = contents.temperature[s][c];
+    if (!free[c]) continue;
+    diagonal[i] = gas_conductance[s][c];
+    source[i] = gas_conductance[s][c] * gas_temperature[s][c];
+  }
+  // Held nodes are boundary values: their links become diagonal and source of the free ones.
+  std::vector<Link> between_free;
+  for (const Link& link : network) {
+    const bool first_free = free[link.first % cells];
+    const bool second_free = free[link.second % cells];
+    if (first_free && second_free) {
+      between_free.push_back(link);
+    } else if (first_free || second_free) {
+      const std::size_t node = first_free ? link.first : link.second;
+      const std::size_t held = first_free ? link.second : link.first;
+      diagonal[node] += link.conductance;
+      source[node] += link.conductance * temperature[held];
+    }
+  }
+  solve_network(between_free, diagonal, source, temperature, tolerance);
+  BySpecies result(species, std::vector<double>(cells));
+  for (std::size_t i = 0; i < temperature.size(); ++i) result[i / cells][i % cells] = temperature[i];
+  return result;
+}
+
+}  // namespace cupola

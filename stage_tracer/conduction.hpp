@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "physics/mesh/bed_mesh.hpp"
+#include "schemas/campaign.hpp"
+#include "stage_tracer/cell_contents.hpp"
+#include "stage_tracer/network.hpp"
+
+namespace cupola {
+
+/// Conduction through the solids (MODEL 16), implicit in time, on the spread contents of the cells:
+/// * within a species, through each face with the conductance min(share) x harmonic mean of k_eff x area/distance,
+/// k_eff after Carson
+///   from the bed's solids fraction (non-orthogonality of the mesh is left out);
+/// * between two species in a cell, `layer_exchange` a volume from the recipe's layer thicknesses, weighted with
+///   min(1, share_a share_b/(share_a share_b of the recipe)): whole where the cell holds the layers in the recipe's
+///   proportions, none where it holds one species alone.
+/// What leaves one place is what arrives at the other, whatever the solver's tolerance: the fluxes of the solution are
+/// applied.
+class Conduction {
+ public:
+  /// @param thickness mean layer thickness of each species, m; 0 for a species that is not charged
+  /// @param recipe_share of each species in the charge's volume
+  Conduction(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed, std::vector<double> thickness,
+             std::vector<double> recipe_share);
+
+  struct Result {
+    BySpecies change;  ///< K, [species][cell], of the spread mean temperatures
+    int iterations = 0;
+  };
+  /// @param contents spread  @param bed_volume m3, [species][cell] (bed_composition)  @param step s
+  [[nodiscard]] Result advance(const CellContents& contents, const BySpecies& bed_volume, double step) const;
+
+  /// Steady temperatures of the cells in `free`, all others held: what infinitely long conduction and exchange with the
+  /// gas leave there (stagnant solids, MODEL 12).  @param gas_conductance W/K a species and cell, to @param
+  /// gas_temperature K.
+  [[nodiscard]] BySpecies steady(const CellContents& contents, const BySpecies& bed_volume,
+                                 const std::vector<bool>& free, const BySpecies& gas_conductance,
+                                 const BySpecies& gas_temperature) const;
+
+ private:
+  /// Conductances between the unknowns species x cells + cell.
+  [[nodiscard]] std::vector<Link> links(const CellContents& contents, const BySpecies& bed_volume) const;
+
+  const BedMesh& mesh_;
+  const Campaign& campaign_;
+  std::vector<bool> bed_;
+  std::vector<double> thickness_;
+  std::vector<double> recipe_share_;
+  struct Neighbours {
+    std::int64_t first, second;
+    double area_over_distance;  ///< m
+  };
+  std::vector<Neighbours> neighbours_;
+};
+
+}  // namespace cupola

@@ -1,0 +1,95 @@
+#include "stage_tracer/gas_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/closures/drag.hpp"
+
+namespace cupola {
+namespace {
+
+// The flow may lag behind the bed by twenty times the accuracy: a resistance that has changed by 20 % between two
+// solutions shifts the temperatures of a step by 0.03 % (NUMERICS_NOTES, table of re-solve rules).
+constexpr double lag_over_accuracy = 20;
+constexpr double tight_tolerance = 1e-6;
+constexpr int tight_iterations = 60;
+constexpr double warm_tolerance = 1e-3;
+constexpr int warm_iterations = 6;
+
+}  // namespace
+
+GasModel::GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign)
+    : campaign_(campaign),
+      flow_(foam, mesh, campaign),
+      energy_(campaign.heat ? std::make_unique<GasEnergy>(foam, mesh, campaign) : nullptr),
+      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {}
+
+void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
+  temperature_ = std::move(first_guess);
+  if (energy_) energy_->restore(temperature_);
+  solve_flow_tightly(bed);
+}
+
+void GasModel::solve_flow_tightly(const BedState& bed) { solve_flow(bed, tight_tolerance, tight_iterations); }
+
+void GasModel::follow(const BedState& bed) {
+  const std::vector<double> now = resistance(bed);
+  double difference = 0;
+  double norm = 0;
+  for (std::size_t c = 0; c < now.size(); ++c) {
+    difference += (now[c] - last_resistance_[c]) * (now[c] - last_resistance_[c]);
+    norm += last_resistance_[c] * last_resistance_[c];
+  }
+  if (difference <= threshold_ * threshold_ * norm) {
+    ++flow_skips_;
+    return;
+  }
+  solve_flow(bed, warm_tolerance, warm_iterations);
+}
+
+void GasModel::solve_energy(const BedState& bed, const SolidsExchange& solids) {
+  temperature_ = energy_->solve(flow_, bed, solids);
+  ++energy_solves_;
+}
+
+std::vector<double> GasModel::resistance(const BedState& bed) const {
+  const Gas& gas = *campaign_.scene.gas;
+  const std::vector<Vector3>& flux = flow_.mass_flux();
+  std::vector<double> result(temperature_.size());
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    // The resistance depends on density x speed alone, so any density will do.
+    const double speed = flux.empty() ? 0 : std::hypot(flux[c][0], flux[c][1], flux[c][2]);
+    result[c] = bed.void_fraction[c] < 1
+                    ? temperature_[c] * drag_resistance(campaign_.drag, bed.void_fraction[c], bed.grain_diameter[c],
+                                                        gas.viscosity, 1.0, speed, bed.polydispersity[c])
+                    : 0;
+  }
+  return result;
+}
+
+void GasModel::solve_flow(const BedState& bed, double tolerance, int most_iterations) {
+  flow_.solve(bed, temperature_, tolerance, most_iterations);
+  last_resistance_ = resistance(bed);
+  ++flow_solves_;
+}
+
+void GasModel::save(HdfWriter& file) const {
+  file.write("Gas/squared_pressure", flow_.warm_start().squared_pressure);
+  file.write("Gas/face_mass_flux", flow_.warm_start().face_mass_flux);
+  file.write("Gas/temperature", temperature_);
+  file.write("Gas/last_resistance", last_resistance_);
+  file.write("Gas/counts", std::vector<std::int64_t>{flow_solves_, flow_skips_, energy_solves_});
+}
+
+void GasModel::restore(const HdfReader& file) {
+  flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
+  temperature_ = file.doubles("Gas/temperature");
+  if (energy_) energy_->restore(temperature_);
+  last_resistance_ = file.doubles("Gas/last_resistance");
+  const std::vector<std::int64_t> counts = file.integers("Gas/counts", 3);
+  flow_solves_ = counts[0];
+  flow_skips_ = counts[1];
+  energy_solves_ = counts[2];
+}
+
+}  // namespace cupola

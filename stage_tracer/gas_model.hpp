@@ -1,0 +1,58 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics/gas/bed_gas.hpp"
+#include "schemas/campaign.hpp"
+#include "schemas/hdf.hpp"
+
+namespace cupola {
+
+/// The steady gas of the tracer stage: the flow is solved again only where the bed has changed by more than the
+/// accuracy asks for, the energy (where there is heat) in every step.  Both start warm; every solve made or skipped is
+/// counted.
+class GasModel {
+ public:
+  GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign);
+
+  /// First flow, on a guessed gas temperature (K, all cells).
+  void begin(const BedState& bed, std::vector<double> first_guess);
+
+  /// Solves the flow to a tight tolerance, whatever has changed.
+  void solve_flow_tightly(const BedState& bed);
+
+  /// Solves the flow again where ||R - R_last||/||R_last|| exceeds the threshold, R = T r(|G|) being the resistance of
+  /// each cell to the mass flux; nothing otherwise.
+  void follow(const BedState& bed);
+
+  /// Steady gas energy with what the solids exchange in this step.
+  void solve_energy(const BedState& bed, const SolidsExchange& solids);
+
+  [[nodiscard]] const std::vector<double>& temperature() const { return temperature_; }
+  [[nodiscard]] const DarcyForchheimer& flow() const { return flow_; }
+  [[nodiscard]] const GasEnergy::Ledger& energy_ledger() const { return energy_->ledger(); }
+  [[nodiscard]] long flow_solves() const { return flow_solves_; }
+  [[nodiscard]] long flow_skips() const { return flow_skips_; }
+  [[nodiscard]] long energy_solves() const { return energy_solves_; }
+
+  /// State for a checkpoint, under `Gas/`.
+  void save(HdfWriter& file) const;
+  void restore(const HdfReader& file);
+
+ private:
+  [[nodiscard]] std::vector<double> resistance(const BedState& bed) const;
+  void solve_flow(const BedState& bed, double tolerance, int most_iterations);
+
+  const Campaign& campaign_;
+  DarcyForchheimer flow_;
+  std::unique_ptr<GasEnergy> energy_;    ///< only where there is heat
+  std::vector<double> temperature_;      ///< K, all cells
+  std::vector<double> last_resistance_;  ///< at the last flow solution
+  double threshold_;
+  long flow_solves_ = 0;
+  long flow_skips_ = 0;
+  long energy_solves_ = 0;
+};
+
+}  // namespace cupola

@@ -1,0 +1,97 @@
+#include "stage_tracer/heat_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "schemas/failure.hpp"
+
+namespace cupola {
+
+void HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
+                       GasModel* gas, double step) {
+  const std::size_t species = contents.volume.size();
+  const std::size_t cells = contents.volume.front().size();
+  BySpecies felt(species, std::vector<double>(cells, 0.0));
+  BySpecies decay(species, std::vector<double>(cells, 1.0));
+  if (gas != nullptr) {
+    exchange_.set_rates(gas->flow().mass_flux(), step);
+    gas->solve_energy(bed, exchange_.solids(contents));
+    felt = exchange_.felt_temperature(gas->temperature());
+    decay = exchange_.decay();
+  }
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (contents.volume[s][c] > 0)
+        contents.temperature[s][c] = felt[s][c] + (contents.temperature[s][c] - felt[s][c]) * decay[s][c];
+    }
+  }
+  BySpecies shift = conduction_.advance(spread(contents, kernel_), bed_volume, step).change;
+  for (std::size_t s = 0; s < species; ++s) {
+    kernel_.gather(shift[s]);
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (contents.volume[s][c] > 0) contents.temperature[s][c] += shift[s][c];
+    }
+  }
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const std::size_t s = tracers.species[i];
+    const auto c = static_cast<std::size_t>(tracers.point[i].cell);
+    double& temperature = tracers.temperature[i];
+    temperature = felt[s][c] + (temperature - felt[s][c]) * decay[s][c] + shift[s][c];
+    if (!(temperature > 0 && temperature < 1e5)) {
+      throw Failure(
+          ExitCode::diverged,
+          fmt::format("the temperature of tracer {} became {} K; shorten tracer.time_step", tracers.id[i], temperature))
+          .at("tracer", std::to_string(tracers.id[i]))
+          .at("cell", std::to_string(c))
+          .advise("tracer.time_step", fmt::format("{:.6g}", step / 2));
+    }
+  }
+}
+
+SolidsExchange HeatStep::solids_at_rest(const CellContents& contents, const std::vector<Vector3>& mass_flux) {
+  exchange_.set_rates(mass_flux, 0);
+  return exchange_.solids(contents);
+}
+
+double HeatStep::settle_stagnant(Tracers& tracers, const CellContents& contents, const BySpecies& bed_volume,
+                                 const std::vector<bool>& stagnant, const GasModel& gas) const {
+  const CellContents spread_contents = spread(contents, kernel_);
+  Exchange at_rest(campaign_, kernel_);
+  at_rest.set_rates(gas.flow().mass_flux(), 0);
+  BySpecies conductance;
+  for (std::size_t s = 0; s < spread_contents.volume.size(); ++s) {
+    conductance.push_back(at_rest.coefficient()[s]);
+    for (std::size_t c = 0; c < conductance[s].size(); ++c) {
+      conductance[s][c] *= 6 * spread_contents.volume[s][c] / campaign_.species[s].diameter;
+    }
+  }
+  const BySpecies gas_temperature(conductance.size(), gas.temperature());
+  const BySpecies steady = conduction_.steady(spread_contents, bed_volume, stagnant, conductance, gas_temperature);
+  double largest = 0;
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const auto c = static_cast<std::size_t>(tracers.point[i].cell);
+    if (!stagnant[c]) continue;
+    const double target = steady[tracers.species[i]][c];
+    largest = std::max(largest, std::abs(target - tracers.temperature[i]));
+    tracers.temperature[i] = target;
+  }
+  return largest;
+}
+
+void remove_molten(Tracers& tracers, const Campaign& campaign, Tally& tally) {
+  std::vector<std::uint8_t> drop(tracers.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const Species& species = campaign.species[tracers.species[i]];
+    if (!species.softening || tracers.temperature[i] < species.softening->melted) continue;
+    tally.leave(Cause::melted, tracers.volume[i] * species.density,
+                enthalpy(species, tracers.volume[i], tracers.temperature[i]));
+    drop[i] = 1;
+    any = true;
+  }
+  if (any) tracers.remove(drop);
+}
+
+}  // namespace cupola

@@ -1,0 +1,41 @@
+#pragma once
+#include "stage_tracer/conduction.hpp"
+#include "stage_tracer/exchange.hpp"
+#include "stage_tracer/gas_model.hpp"
+#include "stage_tracer/removal.hpp"
+#include "stage_tracer/tracers.hpp"
+
+namespace cupola {
+
+/// Heat of one step: convection with the gas (Exchange), then conduction in the solids, both applied to the tracers
+/// with the weights that made the cell sums, so that the tracers take exactly what gas and neighbours give.
+class HeatStep {
+ public:
+  HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction)
+      : campaign_(campaign), kernel_(kernel), conduction_(conduction), exchange_(campaign, kernel) {}
+
+  /// @param contents sums of all ranks where the tracers are (not spread); its temperatures follow the tracers'
+  /// @param gas may be null: conduction alone
+  void advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
+               GasModel* gas, double step);
+
+  /// What the gas sees of the solids at rest (no step): for its first solution.
+  [[nodiscard]] SolidsExchange solids_at_rest(const CellContents& contents, const std::vector<Vector3>& mass_flux);
+
+  /// Steady temperature of the tracers in stagnant cells, in balance with gas and neighbours (MODEL 12); others are
+  /// held.
+  /// @return largest change of a tracer's temperature on this rank, K
+  double settle_stagnant(Tracers& tracers, const CellContents& contents, const BySpecies& bed_volume,
+                         const std::vector<bool>& stagnant, const GasModel& gas) const;
+
+ private:
+  const Campaign& campaign_;
+  const CellSpreading& kernel_;
+  const Conduction& conduction_;
+  Exchange exchange_;
+};
+
+/// Removes the tracers that have reached their melting temperature.
+void remove_molten(Tracers& tracers, const Campaign& campaign, Tally& tally);
+
+}  // namespace cupola

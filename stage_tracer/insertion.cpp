@@ -1,0 +1,69 @@
+#include "stage_tracer/insertion.hpp"
+
+#include <algorithm>
+
+#include "stage_tracer/random.hpp"
+
+namespace cupola {
+
+Insertion::Insertion(const BedMesh& mesh, std::vector<StockFace> faces, const ChargePlan& charge,
+                     std::vector<double> tracer_volume, std::uint64_t seed, std::int64_t first_id)
+    : faces_(std::move(faces)),
+      charge_(charge),
+      tracer_volume_(std::move(tracer_volume)),
+      seed_(seed),
+      next_id_(first_id) {
+  const std::size_t species = tracer_volume_.size();
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const auto& sides = mesh.cell_faces[faces_[f].cell];
+    side_.push_back(static_cast<std::size_t>(std::find(sides.begin(), sides.end(), faces_[f].face) - sides.begin()));
+    // A random part of a tracer owed at the start keeps the faces from charging in step.
+    for (std::size_t s = 0; s < species; ++s) {
+      const auto uniform = random_uniform(seed_, RandomUse::entry_phase, f * species + s);
+      owed_.push_back(uniform[0] * tracer_volume_[s]);
+    }
+  }
+}
+
+std::vector<Entry> Insertion::advance(double from, double to) {
+  const std::vector<ChargePlan::Piece> pieces = charge_.pieces(from, to);
+  const std::size_t species = tracer_volume_.size();
+  std::vector<Entry> entries;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for (const ChargePlan::Piece& piece : pieces) {
+      for (std::size_t s = 0; s < species; ++s) {
+        const double rate = faces_[f].volume_rate * (*piece.share)[s];
+        if (rate <= 0) continue;
+        double& owed = owed_[f * species + s];
+        double time = piece.from;
+        while (owed + rate * (piece.to - time) >= tracer_volume_[s]) {
+          time += (tracer_volume_[s] - owed) / rate;
+          owed = 0;
+          entries.push_back(enter(faces_[f], side_[f], s, std::min(time, piece.to)));
+        }
+        owed += rate * std::max(0.0, piece.to - time);
+      }
+    }
+  }
+  return entries;
+}
+
+Entry Insertion::enter(const StockFace& face, std::size_t side, std::size_t species, double time) {
+  Entry entry;
+  entry.id = next_id_++;
+  entry.species = static_cast<std::uint8_t>(species);
+  entry.time = time;
+  entry.volume = tracer_volume_[species];
+  entry.point.cell = face.cell;
+  const auto uniform = random_uniform(seed_, RandomUse::entry_position, static_cast<std::uint64_t>(entry.id));
+  entry.point.reference = {uniform[0], uniform[1], uniform[2]};
+  entry.point.reference[side / 2] = side % 2 == 0 ? 0.0 : 1.0;
+  return entry;
+}
+
+void Insertion::restore(std::vector<double> owed, std::int64_t next_id) {
+  owed_ = std::move(owed);
+  next_id_ = next_id;
+}
+
+}  // namespace cupola

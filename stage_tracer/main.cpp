@@ -1,0 +1,61 @@
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "physics/mesh/foam_case.hpp"
+#include "physics/mesh/prepare.hpp"
+#include "physics/stage/run_stage.hpp"
+#include "physics/stage/stage_log.hpp"
+#include "physics/stage/stop_request.hpp"
+#include "schemas/files.hpp"
+#include "schemas/task.hpp"
+#include "stage_tracer/tracer_stage.hpp"
+
+namespace {
+
+using cupola::ExitCode;
+
+cupola::Task read_tracer_task(const std::filesystem::path& folder) {
+  cupola::Task task = cupola::read_task(folder);
+  if (task.kind != cupola::TaskKind::tracer) {
+    throw cupola::Failure(ExitCode::wrong_input, "task.yaml: kind is not `tracer`; this folder is for another program");
+  }
+  return task;
+}
+
+int prepare(const std::filesystem::path& folder) {
+  return cupola::run_stage(folder, [&] {
+    cupola::prepare(folder, read_tracer_task(folder));
+    return ExitCode::done;
+  });
+}
+
+int march(const std::filesystem::path& folder, int& argc, char**& argv) {
+  return cupola::run_stage(folder, [&] {
+    const cupola::Task task = read_tracer_task(folder);
+    const cupola::StopRequest stop;
+    cupola::FoamCase foam(folder / "foam", argc, argv);
+    return static_cast<ExitCode>(cupola::run_stage(folder, [&] {
+      std::optional<cupola::FolderLock> lock;
+      if (foam.rank() == 0) lock.emplace(folder);
+      cupola::open_stage_log(folder, foam.rank());
+      return cupola::TracerStage(foam, folder, task).run();
+    }));
+  });
+}
+
+}  // namespace
+
+/// cupola-tracer TASK: marches a tracer task; cupola-tracer prepare TASK: makes its mesh and OpenFOAM case.
+int main(int argc, char** argv) {
+  CLI::App app{"Tracer stage of Cupola: heat and motion of the bed over hours of process time"};
+  std::filesystem::path folder;
+  CLI::App* preparing = app.add_subcommand("prepare", "make mesh and OpenFOAM case of a task folder");
+  preparing->add_option("TASK", folder, "task folder")->required();
+  app.add_option("TASK", folder, "task folder");
+  CLI11_PARSE(app, argc, argv);
+  if (preparing->parsed()) return prepare(folder);
+  if (folder.empty()) return app.exit(CLI::CallForHelp());
+  return march(folder, argc, argv);
+}

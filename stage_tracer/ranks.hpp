@@ -1,0 +1,16 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+namespace cupola {
+
+/// Adds an array up over all ranks, in place; every rank gets the same sums.
+using SumOverRanks = std::function<void(std::vector<double>&)>;
+
+/// The sum over MPI_COMM_WORLD; nothing to do on one rank.
+SumOverRanks sum_over_world();
+
+/// Rows of all ranks one after the other, on rank 0 (empty elsewhere).
+std::vector<double> gather_to_first(const std::vector<double>& local);
+
+}  // namespace cupola

@@ -1,0 +1,56 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "schemas/task.hpp"
+#include "stage_tracer/averages.hpp"
+#include "stage_tracer/cohesive_zone.hpp"
+#include "stage_tracer/gas_model.hpp"
+#include "stage_tracer/granular_field.hpp"
+#include "stage_tracer/ledger.hpp"
+#include "stage_tracer/tracers.hpp"
+
+namespace cupola {
+
+/// Where the melting species are and how hot they are, over the whole bed.
+struct MeltingZone {
+  std::vector<double> ore_temperature;  ///< K, all cells, continued (MODEL 11)
+  std::vector<Column> columns;
+  Isotherm melted;
+  Isotherm softened;
+};
+
+/// @param volume, temperature spread contents or means, [species][cell]
+/// @throws std::logic_error without a softening species
+MeltingZone find_melting_zone(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
+                              const BySpecies& volume, const BySpecies& temperature);
+
+/// Whether a campaign has a species that softens and heat to soften it.
+bool can_melt(const Campaign& campaign);
+
+/// What a march leaves behind, for `result.hdf`.
+struct MarchOutcome {
+  const BedMesh& mesh;
+  const GranularField& field;
+  const Averages& averages;
+  const Ledger& ledger;
+  const GasModel* gas = nullptr;         ///< null without gas
+  std::vector<double> tracer_rows{};       ///< of all ranks (to_rows), on rank 0
+  std::vector<Vector3> tracer_position{};  ///< of the rows
+  std::size_t tracers = 0;
+  int ranks = 1;
+  long steps = 0;
+  double time_step = 0;
+  double process_seconds = 0;
+  double wall_seconds = 0;
+  std::map<std::string, double> wall_seconds_by_part{};
+  std::int64_t cells_at_floor = 0;
+};
+
+/// Writes `result.hdf` of the task folder as docs/contracts.md has it.
+void write_result(const std::filesystem::path& folder, const Task& task, const MarchOutcome& outcome);
+
+}  // namespace cupola

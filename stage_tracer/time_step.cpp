@@ -1,0 +1,49 @@
+#include "stage_tracer/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cupola {
+namespace {
+
+constexpr double part_of_crossing = 0.2;
+constexpr double faster_volume = 0.1;
+
+/// Crossing time that `faster_volume` of the moving bed falls below, s.
+double crossing_time(const BedMesh& mesh, const GranularField& field) {
+  const std::vector<double> residence = cell_residence(mesh, field.face_flux, field.storage);
+  std::vector<std::size_t> moving;
+  double volume = 0;
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    if (!field.bed[c] || field.stagnant[c]) continue;
+    moving.push_back(c);
+    volume += mesh.cell_volume[c];
+  }
+  std::sort(moving.begin(), moving.end(), [&](std::size_t a, std::size_t b) { return residence[a] < residence[b]; });
+  double passed = 0;
+  for (const std::size_t c : moving) {
+    passed += mesh.cell_volume[c];
+    if (passed >= faster_volume * volume) return residence[c];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
+                            const ChargePlan* charge) {
+  const double duration = campaign.tracer.duration;
+  double length = duration / 100;
+  if (campaign.tracer.time_step) {
+    length = *campaign.tracer.time_step;
+  } else if (charge != nullptr) {
+    length = part_of_crossing * std::min(crossing_time(mesh, field), charge->thinnest_layer_seconds());
+  }
+  TimeSteps steps;
+  steps.count = std::max(1L, static_cast<long>(std::ceil(duration / length - 1e-9)));
+  steps.length = duration / static_cast<double>(steps.count);
+  return steps;
+}
+
+}  // namespace cupola
