@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stage_tracer/conduction.hpp"
+#include "stage_tracer/exchange.hpp"
+#include "stage_tracer/random.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/furnaces.hpp"
+
+namespace cupola {
+namespace {
+
+Campaign hot_shaft() {
+  Campaign campaign = furnaces::shaft();
+  for (Species& species : campaign.species) {
+    species.heat_capacity = 700;
+    species.conductivity = 5;
+  }
+  campaign.heat = Heat{1.0};
+  return campaign;
+}
+
+BedMesh block() {
+  testing::BoxMesh box;
+  box.cells = {4, 3, 5};
+  box.periodic_y = true;
+  return box.make();
+}
+
+double noise(std::uint64_t id) { return random_uniform(7, RandomUse::seeding, id)[0]; }
+
+/// Both species at random in the cells, some cells without one of them.
+CellContents random_contents(const BedMesh& mesh) {
+  CellContents contents;
+  for (std::size_t s = 0; s < 2; ++s) {
+    std::vector<double> volume(mesh.cells());
+    std::vector<double> temperature(mesh.cells(), 0.0);
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      volume[c] = noise(1000 * s + c) < 0.3 ? 0 : 0.3 * mesh.cell_volume[c] * noise(10000 + 1000 * s + c);
+      if (volume[c] > 0) temperature[c] = 300 + 1500 * noise(20000 + 1000 * s + c);
+    }
+    contents.volume.push_back(volume);
+    contents.temperature.push_back(temperature);
+  }
+  return contents;
+}
+
+TEST(Exchange, SingleGrainFollowsThePublishedHeating) {
+  // REFERENCE: a 3.6 mm grain at 373.15 K in air at 298.15 K and 6 m/s, Nu = 17.811.
+  Campaign campaign = hot_shaft();
+  Gas& gas = *campaign.scene.gas;
+  gas.heat_capacity = 999.06;
+  gas.viscosity = 1.8603e-5;
+  gas.prandtl = gas.viscosity * gas.heat_capacity / 0.051865;
+  campaign.species.resize(1);
+  Species& grain = campaign.species[0];
+  grain.diameter = 3.6e-3;
+  grain.density = 8850;
+  grain.heat_capacity = 55.0;
+  const BedMesh mesh = block();
+  const CellSpreading kernel(mesh, {}, 0.2);
+  Exchange exchange(campaign, kernel);
+  const std::vector<Vector3> mass_flux(mesh.cells(), Vector3{0, 0, 1.1854 * 6});
+  const std::vector<double> gas_temperature(mesh.cells(), 298.15);
+  for (const auto& [time, expected] : {std::pair{0.1, 366.8415}, std::pair{0.5, 346.4858}, std::pair{1.0, 329.3014}}) {
+    exchange.set_rates(mass_flux, time);
+    const double felt = exchange.felt_temperature(gas_temperature)[0][17];
+    const double temperature = felt + (373.15 - felt) * exchange.decay()[0][17];
+    EXPECT_NEAR(temperature, expected, 1e-4 * (expected - 298.15)) << "after " << time << " s";
+  }
+}
+
+TEST(Exchange, SolidsTakeExactlyWhatTheGasGivesForAnyStep) {
+  const Campaign campaign = hot_shaft();
+  const BedMesh mesh = block();
+  const CellSpreading kernel(mesh, {}, 0.3);
+  Exchange exchange(campaign, kernel);
+  const CellContents contents = random_contents(mesh);
+  std::vector<Vector3> mass_flux(mesh.cells());
+  std::vector<double> gas_temperature(mesh.cells());
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    mass_flux[c] = {noise(31000 + c), 0, 2 * noise(32000 + c)};
+    gas_temperature[c] = 300 + 2000 * noise(33000 + c);
+  }
+  for (const double step : {1e-5, 1e-2, 20.0, 1e4, 1e7}) {  // k dt from 1e-8 to above 1e3
+    exchange.set_rates(mass_flux, step);
+    const SolidsExchange solids = exchange.solids(contents);
+    double given = 0;
+    double turnover = 0;
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      given += step * (solids.conductance[c] * gas_temperature[c] - solids.conductance_temperature[c]);
+      turnover += step * solids.conductance_temperature[c];
+    }
+    const BySpecies felt = exchange.felt_temperature(gas_temperature);
+    double taken = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+      const Species& species = campaign.species[s];
+      for (std::size_t c = 0; c < mesh.cells(); ++c) {
+        const double capacity = contents.volume[s][c] * species.density * species.heat_capacity;
+        taken -= capacity * (felt[s][c] - contents.temperature[s][c]) * std::expm1(std::log(exchange.decay()[s][c]));
+      }
+    }
+    // With a tiny step the decay itself rounds: 1 - exp(-k dt) is known to round-off over k dt.
+    EXPECT_NEAR(taken, given, 1e-11 * turnover + 1e-15 * turnover / std::min(1.0, step * 1e-3)) << "step " << step;
+  }
+}
+
+TEST(Exchange, MeanDecayIsSmoothThroughZero) {
+  EXPECT_DOUBLE_EQ(Exchange::mean_decay(0), 1);
+  EXPECT_NEAR(Exchange::mean_decay(1e-10), 1 - 0.5e-10, 1e-15);
+  EXPECT_NEAR(Exchange::mean_decay(1.0), 1 - std::exp(-1.0), 1e-15);
+  EXPECT_NEAR(Exchange::mean_decay(1e3), 1e-3, 1e-15);
+}
+
+class ConductionTest : public ::testing::Test {
+ protected:
+  BedMesh mesh_ = block();
+  Campaign campaign_ = hot_shaft();
+  std::vector<bool> bed_ = std::vector<bool>(mesh_.cells(), true);
+  std::vector<double> thickness_{0.4, 0.3};
+  std::vector<double> share_{0.6, 0.4};
+
+  double heat(const CellContents& contents, const BySpecies& temperature) const {
+    double sum = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+        sum += campaign_.species[s].density * campaign_.species[s].heat_capacity * contents.volume[s][c] * temperature[s][c];
+      }
+    }
+    return sum;
+  }
+};
+
+TEST_F(ConductionTest, KeepsTheHeatAndTheBounds) {
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  const CellContents contents = random_contents(mesh_);
+  BySpecies packed(2, std::vector<double>(mesh_.cells()));
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    const double total = contents.volume[0][c] + contents.volume[1][c];
+    for (std::size_t s = 0; s < 2; ++s) {
+      packed[s][c] = total > 0 ? 0.56 * mesh_.cell_volume[c] * contents.volume[s][c] / total : 0;
+    }
+  }
+  for (const double step : {1.0, 1e3, 1e6}) {
+    const Conduction::Result result = conduction.advance(contents, packed, step);
+    EXPECT_NEAR(heat(contents, result.change), 0, 1e-12 * heat(contents, contents.temperature)) << "step " << step;
+    EXPECT_GT(result.iterations, 0);
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+        if (contents.volume[s][c] <= 0) continue;
+        const double after = contents.temperature[s][c] + result.change[s][c];
+        EXPECT_GT(after, 300 - 0.1);
+        EXPECT_LT(after, 1800 + 0.1);
+      }
+    }
+  }
+}
+
+TEST_F(ConductionTest, SlabBetweenTwoPlatesHasALinearSteadyProfile) {
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  CellContents contents;
+  contents.volume = {std::vector<double>(mesh_.cells()), std::vector<double>(mesh_.cells(), 0.0)};
+  contents.temperature = {std::vector<double>(mesh_.cells(), 0.0), std::vector<double>(mesh_.cells(), 0.0)};
+  std::vector<bool> free(mesh_.cells(), true);
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    contents.volume[0][c] = 0.6 * mesh_.cell_volume[c];
+    const double z = mesh_.cell_centre[c][2];
+    if (z < 0.15) contents.temperature[0][c] = 1000;
+    if (z > 0.85) contents.temperature[0][c] = 400;
+    free[c] = z > 0.15 && z < 0.85;
+  }
+  const BySpecies nothing(2, std::vector<double>(mesh_.cells(), 0.0));
+  const BySpecies steady = conduction.steady(contents, contents.volume, free, nothing, nothing);
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    EXPECT_NEAR(steady[0][c], 1000 - 600 * (mesh_.cell_centre[c][2] - 0.1) / 0.8, 1e-3);
+  }
+}
+
+TEST_F(ConductionTest, SpeciesInLayersMeetThroughTheExchangeOfTheRecipe) {
+  // Cells in the recipe's proportions, uniform: only the exchange between the species acts, and its implicit step is known.
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  CellContents contents;
+  const double solids = 0.56;
+  for (std::size_t s = 0; s < 2; ++s) {
+    contents.volume.emplace_back(mesh_.cells(), share_[s] * solids * mesh_.cell_volume[0]);
+    contents.temperature.emplace_back(mesh_.cells(), s == 0 ? 1000.0 : 400.0);
+  }
+  const double step = 50;
+  const auto change = conduction.advance(contents, contents.volume, step).change;
+  const double k = 5 * (3 * solids - 1) / 2;
+  const double exchange = 12 / (0.7 * (0.4 / k + 0.3 / k));
+  const double coke = share_[0] * solids * 800 * 700;
+  const double ore = share_[1] * solids * 3000 * 700;
+  const double difference = 600 / (1 + step * exchange * (1 / coke + 1 / ore));
+  EXPECT_NEAR(change[0][7], -step * exchange * difference / coke, 1e-5);
+  EXPECT_NEAR(change[1][7], step * exchange * difference / ore, 1e-5);
+}
+
+}  // namespace
+}  // namespace cupola
