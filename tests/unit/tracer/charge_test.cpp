@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "schemas/failure.hpp"
 #include "stage_tracer/charge_plan.hpp"
 #include "stage_tracer/insertion.hpp"
 #include "tests/support/box_mesh.hpp"
