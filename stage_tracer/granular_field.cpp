@@ -16,10 +16,8 @@ namespace {
 double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool is_outlet(const BedMesh& mesh, std::int64_t face) {
-  return std::any_of(mesh.patches.begin(), mesh.patches.end(), [face](const BedMesh::Patch& patch) {
-    return patch.kind == BedMesh::PatchKind::outlet && face >= patch.first_face &&
-           face < patch.first_face + patch.faces;
-  });
+  const BedMesh::Patch* patch = mesh.patch_of(face);
+  return patch != nullptr && patch->kind == BedMesh::PatchKind::outlet;
 }
 
 }  // namespace
@@ -151,27 +149,11 @@ std::vector<StockFace> stock_faces(const BedMesh& mesh, const std::vector<bool>&
   return faces;
 }
 
-std::vector<double> cell_residence(const BedMesh& mesh, const std::vector<double>& face_flux,
-                                   const std::vector<double>& storage) {
-  std::vector<double> through(mesh.cells(), 0.0);
-  for (std::size_t f = 0; f < mesh.faces(); ++f) {
-    through[mesh.face_owner[f]] += 0.5 * std::abs(face_flux[f]);
-    if (f < mesh.internal_faces()) through[mesh.face_neighbour[f]] += 0.5 * std::abs(face_flux[f]);
+std::vector<bool> stagnant_cells(const PathField& paths, const std::vector<bool>& bed, double longest_stay) {
+  std::vector<bool> stagnant(bed.size());
+  for (std::size_t c = 0; c < bed.size(); ++c) {
+    stagnant[c] = bed[c] && paths.crossing_time(static_cast<std::int64_t>(c)) > longest_stay;
   }
-  std::vector<double> residence(mesh.cells());
-  for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    residence[c] =
-        through[c] > 0 ? mesh.cell_volume[c] * storage[c] / through[c] : std::numeric_limits<double>::infinity();
-  }
-  return residence;
-}
-
-std::vector<bool> stagnant_cells(const BedMesh& mesh, const std::vector<bool>& bed,
-                                 const std::vector<double>& face_flux, const std::vector<double>& storage,
-                                 double longest_residence) {
-  const std::vector<double> residence = cell_residence(mesh, face_flux, storage);
-  std::vector<bool> stagnant(mesh.cells());
-  for (std::size_t c = 0; c < mesh.cells(); ++c) stagnant[c] = bed[c] && residence[c] > longest_residence;
   return stagnant;
 }
 

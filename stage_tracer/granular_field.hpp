@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "physics/mesh/bed_mesh.hpp"
+#include "physics/motion/path.hpp"
 #include "physics/plan/charge.hpp"
 #include "schemas/campaign.hpp"
 
@@ -71,14 +72,7 @@ std::vector<double> interpolate_flux(const BedMesh& mesh, const std::vector<bool
 std::vector<StockFace> stock_faces(const BedMesh& mesh, const std::vector<bool>& bed,
                                    const std::vector<double>& face_flux, double volume_rate);
 
-/// MODEL 12: cells in which solids stay longer than ten times bed height/descent rate.
-std::vector<bool> stagnant_cells(const BedMesh& mesh, const std::vector<bool>& bed,
-                                 const std::vector<double>& face_flux, const std::vector<double>& storage,
-                                 double longest_residence);
-
-/// Mean speed at which each bed cell is crossed: residence of the cell (volume x storage over throughput), s; infinite
-/// without flow.
-std::vector<double> cell_residence(const BedMesh& mesh, const std::vector<double>& face_flux,
-                                   const std::vector<double>& storage);
+/// MODEL 12: bed cells in which solids stay longer than `longest_stay`, s.
+std::vector<bool> stagnant_cells(const PathField& paths, const std::vector<bool>& bed, double longest_stay);
 
 }  // namespace cupola

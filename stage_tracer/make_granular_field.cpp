@@ -145,7 +145,8 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
   }
   field.stock_faces = stock_faces(mesh, field.bed, field.face_flux, volume_rate);
   const double height = std::min(campaign.charging.stock_line, campaign.top()) - campaign.bottom();
-  field.stagnant = stagnant_cells(mesh, field.bed, field.face_flux, field.storage, 10 * height / campaign.descent_rate);
+  field.stagnant =
+      stagnant_cells(PathField(mesh, field.face_flux, field.storage), field.bed, 10 * height / campaign.descent_rate);
 
   if (std::abs(field.scale_check) > 0.1) {
     spdlog::warn(

@@ -38,7 +38,8 @@ void Motion::advance(Tracers& tracers, double from, double to, const std::vector
     tracers.life[i] = clock.life;
     const Species& species = campaign_.species[tracers.species[i]];
     const bool too_low = species.softening && paths_.position(point)[2] < species.none_below;
-    if (clock.life > 0 && !too_low && end != PathField::End::left_through_outflow) continue;
+    const bool gone = end == PathField::End::left_through_outflow || !field_.bed[point.cell];
+    if (clock.life > 0 && !too_low && !gone) continue;
     const Cause cause = clock.life <= 0 ? Cause::raceway : (too_low ? Cause::unmelted : Cause::lost);
     tally.leave(cause, tracers.volume[i] * species.density,
                 heat ? enthalpy(species, tracers.volume[i], tracers.temperature[i]) : 0);

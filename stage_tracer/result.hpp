@@ -37,7 +37,7 @@ struct MarchOutcome {
   const GranularField& field;
   const Averages& averages;
   const Ledger& ledger;
-  const GasModel* gas = nullptr;         ///< null without gas
+  const GasModel* gas = nullptr;           ///< null without gas
   std::vector<double> tracer_rows{};       ///< of all ranks (to_rows), on rank 0
   std::vector<Vector3> tracer_position{};  ///< of the rows
   std::size_t tracers = 0;

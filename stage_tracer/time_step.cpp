@@ -11,12 +11,13 @@ constexpr double part_of_crossing = 0.2;
 constexpr double faster_volume = 0.1;
 
 /// Crossing time that `faster_volume` of the moving bed falls below, s.
-double crossing_time(const BedMesh& mesh, const GranularField& field) {
-  const std::vector<double> residence = cell_residence(mesh, field.face_flux, field.storage);
+double crossing_time(const BedMesh& mesh, const GranularField& field, const PathField& paths) {
+  std::vector<double> residence(mesh.cells());
   std::vector<std::size_t> moving;
   double volume = 0;
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
     if (!field.bed[c] || field.stagnant[c]) continue;
+    residence[c] = paths.crossing_time(static_cast<std::int64_t>(c));
     moving.push_back(c);
     volume += mesh.cell_volume[c];
   }
@@ -32,13 +33,13 @@ double crossing_time(const BedMesh& mesh, const GranularField& field) {
 }  // namespace
 
 TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
-                            const ChargePlan* charge) {
+                            const PathField& paths, const ChargePlan* charge) {
   const double duration = campaign.tracer.duration;
   double length = duration / 100;
   if (campaign.tracer.time_step) {
     length = *campaign.tracer.time_step;
   } else if (charge != nullptr) {
-    length = part_of_crossing * std::min(crossing_time(mesh, field), charge->thinnest_layer_seconds());
+    length = part_of_crossing * std::min(crossing_time(mesh, field, paths), charge->thinnest_layer_seconds());
   }
   TimeSteps steps;
   steps.count = std::max(1L, static_cast<long>(std::ceil(duration / length - 1e-9)));

@@ -16,6 +16,6 @@ struct TimeSteps {
 /// number of steps fills the duration.
 /// @param charge null for a bed at rest, whose `auto` step is a hundredth of the duration
 TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
-                            const ChargePlan* charge);
+                            const PathField& paths, const ChargePlan* charge);
 
 }  // namespace cupola

@@ -82,7 +82,7 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
       paths_(mesh_, field_.face_flux, field_.storage),
       split_(tracers_per_parcel(campaign_, locator_, field_.bed, dem_.packing)),
       charge_(make_charge(campaign_, field_, dem_)),
-      steps_(choose_time_steps(mesh_, campaign_, field_, charge_.get())),
+      steps_(choose_time_steps(mesh_, campaign_, field_, paths_, charge_.get())),
       kernel_(mesh_, field_.bed, kernel_diameter(campaign_, field_.charge)),
       conduction_(mesh_, campaign_, field_.bed, field_.charge.layer_thickness, field_.charge.volume_share),
       motion_(campaign_, field_, paths_),

@@ -106,7 +106,8 @@ TEST_F(InsertionTest, EntryTimesDoNotDependOnTheSteps) {
   Insertion in_many(mesh_, faces_, plan_, tracer_volume_, 1, 1000);
   std::multimap<double, std::pair<std::int64_t, int>> one;
   std::multimap<double, std::pair<std::int64_t, int>> many;
-  for (const Entry& e : in_one.advance(0, 100)) one.emplace(e.time, std::pair{e.point.cell, static_cast<int>(e.species)});
+  for (const Entry& e : in_one.advance(0, 100))
+    one.emplace(e.time, std::pair{e.point.cell, static_cast<int>(e.species)});
   for (int k = 0; k < 40; ++k) {
     for (const Entry& e : in_many.advance(2.5 * k, 2.5 * (k + 1))) {
       many.emplace(e.time, std::pair{e.point.cell, static_cast<int>(e.species)});

@@ -125,7 +125,8 @@ class ConductionTest : public ::testing::Test {
     double sum = 0;
     for (std::size_t s = 0; s < 2; ++s) {
       for (std::size_t c = 0; c < mesh_.cells(); ++c) {
-        sum += campaign_.species[s].density * campaign_.species[s].heat_capacity * contents.volume[s][c] * temperature[s][c];
+        sum += campaign_.species[s].density * campaign_.species[s].heat_capacity * contents.volume[s][c] *
+               temperature[s][c];
       }
     }
     return sum;
@@ -178,7 +179,8 @@ TEST_F(ConductionTest, SlabBetweenTwoPlatesHasALinearSteadyProfile) {
 }
 
 TEST_F(ConductionTest, SpeciesInLayersMeetThroughTheExchangeOfTheRecipe) {
-  // Cells in the recipe's proportions, uniform: only the exchange between the species acts, and its implicit step is known.
+  // Cells in the recipe's proportions, uniform: only the exchange between the species acts, and its implicit step is
+  // known.
   const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
   CellContents contents;
   const double solids = 0.56;

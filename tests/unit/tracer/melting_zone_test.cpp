@@ -95,7 +95,8 @@ TEST_F(MeltingZoneTest, GapsBetweenLayersAreBridgedAndNoiseDoesNotShiftTheMean) 
       weight[column.cells[i]] = 1;
     }
   }
-  const auto ore = continue_ore_temperature(mesh_, columns_, temperature, weight, std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
+  const auto ore = continue_ore_temperature(mesh_, columns_, temperature, weight,
+                                            std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
   double before = 0;
   double after = 0;
   for (const std::int64_t cell : columns_[3].cells) {
@@ -109,7 +110,8 @@ TEST_F(MeltingZoneTest, GapsBetweenLayersAreBridgedAndNoiseDoesNotShiftTheMean) 
 TEST_F(MeltingZoneTest, OreThatNeverMeltsLeavesNoCrossingAboveItsEnd) {
   std::vector<double> temperature(mesh_.cells(), 900.0);
   std::vector<double> weight(mesh_.cells(), 1.0);
-  const auto ore = continue_ore_temperature(mesh_, columns_, temperature, weight, std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
+  const auto ore = continue_ore_temperature(mesh_, columns_, temperature, weight,
+                                            std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
   const Isotherm melted = find_isotherm(mesh_, columns_, ore, 1675);
   EXPECT_EQ(melted.columns_without, 12);
   EXPECT_TRUE(std::isnan(melted.height_mean));
@@ -118,7 +120,8 @@ TEST_F(MeltingZoneTest, OreThatNeverMeltsLeavesNoCrossingAboveItsEnd) {
 
 TEST_F(MeltingZoneTest, BedWithoutOreCountsAsMelted) {
   const std::vector<double> none(mesh_.cells(), 0.0);
-  const auto ore = continue_ore_temperature(mesh_, columns_, none, none, std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
+  const auto ore =
+      continue_ore_temperature(mesh_, columns_, none, none, std::vector<double>(mesh_.cells(), 0.5), softening_, 293);
   for (const double t : ore) EXPECT_DOUBLE_EQ(t, 1675);
 }
 

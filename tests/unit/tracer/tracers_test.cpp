@@ -1,0 +1,184 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "physics/mesh/cell_locator.hpp"
+#include "stage_tracer/cell_contents.hpp"
+#include "stage_tracer/displacement.hpp"
+#include "stage_tracer/ledger.hpp"
+#include "stage_tracer/motion.hpp"
+#include "stage_tracer/seeding.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/furnaces.hpp"
+
+namespace cupola {
+namespace {
+
+class TracersTest : public ::testing::Test {
+ protected:
+  TracersTest() {
+    testing::BoxMesh box;
+    box.cells = {6, 4, 10};
+    box.lower = {-0.6, -0.4, 0};
+    box.upper = {0.6, 0.4, 2};
+    box.periodic_y = true;
+    mesh_ = box.make();
+    campaign_.charging.stock_line = 1.4;
+    bed_ = bed_cells(mesh_, campaign_);
+  }
+
+  /// Parcels on a grid, some of them above the stock line.
+  [[nodiscard]] Packing grid() const {
+    Packing packing;
+    for (double z = 0.1; z < 2; z += 0.2) {
+      for (double x = -0.5; x < 0.6; x += 0.2) {
+        packing.id.push_back(static_cast<std::int64_t>(packing.id.size()) + 5);
+        packing.species.push_back(packing.id.size() % 2 == 0 ? 1 : 0);
+        packing.position.push_back({x, 0.39, z});
+        packing.radius.push_back(0.09);
+        packing.mass.push_back(2.0 + 0.01 * static_cast<double>(packing.id.size()));
+      }
+    }
+    return packing;
+  }
+
+  Campaign campaign_ = furnaces::shaft();
+  BedMesh mesh_;
+  std::vector<bool> bed_;
+};
+
+TEST_F(TracersTest, SeedingKeepsTheVolumeAndIsTheSameOnAnyNumberOfRanks) {
+  const CellLocator locator(mesh_);
+  const PathField paths(mesh_, std::vector<double>(mesh_.faces(), 0.0), std::vector<double>(mesh_.cells(), 1.0));
+  const Packing packing = grid();
+  campaign_.tracer.tracers_per_cell = 4;
+  const int split = tracers_per_parcel(campaign_, locator, bed_, packing);
+  const Tracers all = seed_tracers(campaign_, locator, paths, bed_, packing, split, 1, 0, 1);
+  double parcels = 0;
+  double volume = 0;
+  for (std::size_t p = 0; p < packing.id.size(); ++p) {
+    if (packing.position[p][2] >= 1.4) continue;
+    parcels += 1;
+    volume += packing.mass[p] / campaign_.species[packing.species[p]].density;
+  }
+  double seeded = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    seeded += all.volume[i];
+    EXPECT_TRUE(bed_[static_cast<std::size_t>(all.point[i].cell)]);
+    EXPECT_GT(all.life[i], 0);
+    if (i > 0) EXPECT_GT(all.id[i], all.id[i - 1]);
+  }
+  EXPECT_EQ(all.size(), static_cast<std::size_t>(parcels) * static_cast<std::size_t>(split));
+  EXPECT_NEAR(seeded, volume, 1e-12 * volume);
+  EXPECT_GE(static_cast<double>(all.size()), 4.0 * static_cast<double>(std::count(bed_.begin(), bed_.end(), true)));
+
+  std::vector<double> rows;
+  for (int rank = 0; rank < 3; ++rank) {
+    const auto part = to_rows(seed_tracers(campaign_, locator, paths, bed_, packing, split, 1, rank, 3));
+    rows.insert(rows.end(), part.begin(), part.end());
+  }
+  const Tracers joined = from_rows(rows, false, 0, 1);
+  ASSERT_EQ(joined.id, all.id);
+  EXPECT_EQ(joined.life, all.life);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(joined.point[i].reference, all.point[i].reference);
+}
+
+TEST_F(TracersTest, SeedingNeedsAParcelInTheBed) {
+  const CellLocator locator(mesh_);
+  Packing packing = grid();
+  for (Vector3& position : packing.position) position[2] = 1.9;
+  EXPECT_THROW(tracers_per_parcel(campaign_, locator, bed_, packing), Failure);
+}
+
+TEST_F(TracersTest, RacewayRemovesAtItsRateForAnyStep) {
+  GranularField field;
+  field.bed = bed_;
+  field.stagnant.assign(mesh_.cells(), false);
+  field.removal_rate.assign(mesh_.cells(), 0.02);
+  const PathField paths(mesh_, std::vector<double>(mesh_.faces(), 0.0), std::vector<double>(mesh_.cells(), 1.0));
+  const Motion motion(campaign_, field, paths);
+  const int count = 20000;
+  std::vector<std::vector<std::int64_t>> left;
+  for (const double step : {40.0, 1.0}) {
+    Tracers tracers;
+    for (std::int64_t id = 0; id < count; ++id) tracers.add(id, 0, {7, {0.5, 0.5, 0.5}}, 1e-4, draw_life(3, id));
+    Tally tally;
+    for (double time = 0; time < 40; time += step) motion.advance(tracers, time, time + step, {}, 3, tally);
+    const double expected = count * std::exp(-0.8);
+    EXPECT_NEAR(static_cast<double>(tracers.size()), expected, 4 * std::sqrt(expected * (1 - std::exp(-0.8))));
+    EXPECT_NEAR(tally.of(tally.mass, Cause::raceway), (count - static_cast<double>(tracers.size())) * 1e-4 * 800, 1e-8);
+    left.push_back(tracers.id);
+  }
+  EXPECT_EQ(left[0], left[1]);
+}
+
+TEST_F(TracersTest, MeltingSpeciesTooLowIsCountedAsUnmelted) {
+  GranularField field;
+  field.bed = bed_;
+  field.stagnant.assign(mesh_.cells(), false);
+  field.removal_rate.assign(mesh_.cells(), 0.0);
+  campaign_.species[1].softening = Softening{1475, 1675};
+  campaign_.species[1].none_below = 0.3;
+  const PathField paths(mesh_, std::vector<double>(mesh_.faces(), 0.0), std::vector<double>(mesh_.cells(), 1.0));
+  Tracers tracers;
+  for (std::int64_t id = 0; id < 4; ++id)
+    tracers.add(id, static_cast<std::uint8_t>(id % 2), {id < 2 ? 0 : 100, {0.5, 0.5, 0.5}}, 1e-3, 1);
+  Tally tally;
+  Motion(campaign_, field, paths).advance(tracers, 0, 1, {}, 3, tally);
+  EXPECT_EQ(tracers.id, (std::vector<std::int64_t>{0, 2, 3}));
+  EXPECT_DOUBLE_EQ(tally.of(tally.mass, Cause::unmelted), 3);
+}
+
+TEST_F(TracersTest, DisplacementSpreadsAnExcessAndNeverLeavesTheBed) {
+  const CellLocator locator(mesh_);
+  const PathField paths(mesh_, std::vector<double>(mesh_.faces(), 0.0), std::vector<double>(mesh_.cells(), 1.0));
+  Tracers tracers;
+  const std::int64_t corner = 0;
+  for (std::int64_t id = 0; id < 2000; ++id) tracers.add(id, 0, {corner, {0.5, 0.5, 0.5}}, 1e-5, 1);
+  TracerSettings settings;
+  settings.displacement_coefficient = 5e-4;
+  settings.displacement_limit = 0.05;
+  const std::vector<double> target(mesh_.cells(), 0.5);
+  std::vector<double> excess;
+  for (long step = 0; step < 300; ++step) {
+    const CellContents contents = sum_tracers(tracers, 1, mesh_.cells(), false, [](std::vector<double>&) {});
+    excess = volume_excess(mesh_, bed_, contents.volume[0], target);
+    displace(tracers, settings, locator, paths, bed_, excess, 5, 11, step);
+  }
+  ASSERT_EQ(tracers.size(), 2000U);
+  double densest = 0;
+  const CellContents after = sum_tracers(tracers, 1, mesh_.cells(), false, [](std::vector<double>&) {});
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    densest = std::max(densest, after.volume[0][c] / mesh_.cell_volume[c]);
+    if (!bed_[c]) EXPECT_EQ(after.volume[0][c], 0);
+  }
+  EXPECT_LT(densest, 0.6);  // from 2.5 in one cell towards 0.5
+}
+
+TEST(Ledger, ResidualsSeeWhatIsMissingAndSurviveACheckpoint) {
+  Ledger ledger;
+  ledger.mass_begin = 100;
+  ledger.tally.enter(10, 50);
+  ledger.tally.leave(Cause::melted, 4, 700);
+  ledger.tally.leave(Cause::raceway, 3, 200);
+  ledger.mass_now = 103;
+  ledger.blast = 5000;
+  ledger.top_gas = 1000;
+  ledger.walls = 100;
+  ledger.energy_begin = 1000;
+  ledger.energy_now = 1000 + 5000 + 50 - 1000 - 100 - 900;
+  EXPECT_NEAR(ledger.mass_residual(), 0, 1e-15);
+  EXPECT_NEAR(ledger.energy_residual(), 0, 1e-15);
+  const Ledger back = Ledger::from_row(ledger.row());
+  EXPECT_EQ(back.row(), ledger.row());
+  ledger.energy_now += 50;
+  EXPECT_NEAR(ledger.energy_residual(), 0.01, 1e-12);
+  ledger.mass_now -= 1;
+  EXPECT_NEAR(ledger.mass_residual(), 0.01, 1e-12);
+  EXPECT_EQ(ledger.to_json(true)["energy"]["melt"].get<double>(), 700);
+  EXPECT_FALSE(ledger.to_json(false).contains("energy"));
+}
+
+}  // namespace
+}  // namespace cupola
