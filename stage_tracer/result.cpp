@@ -122,8 +122,10 @@ void write_gas(FieldFileWriter& file, const Campaign& campaign, const GasModel& 
   summary["inertia_over_drag_largest"] = gas.flow().inertia_over_drag_largest();
   nlohmann::json inlets = nlohmann::json::array();
   for (const auto& inlet : gas.flow().inlets()) {
-    inlets.push_back(
-        {{"name", inlet.name}, {"pressure", inlet.pressure}, {"velocity", inlet.velocity}, {"mach", inlet.mach}});
+    inlets.push_back({{"name", inlet.name},
+                      {"pressure", inlet.state.static_pressure},
+                      {"velocity", inlet.state.velocity},
+                      {"mach", inlet.state.mach_number}});
   }
   summary["inlets"] = inlets;
   if (!campaign.heat) return;

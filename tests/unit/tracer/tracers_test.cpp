@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "physics/mesh/cell_locator.hpp"
+#include "schemas/failure.hpp"
 #include "stage_tracer/cell_contents.hpp"
 #include "stage_tracer/displacement.hpp"
 #include "stage_tracer/ledger.hpp"
@@ -67,7 +69,9 @@ TEST_F(TracersTest, SeedingKeepsTheVolumeAndIsTheSameOnAnyNumberOfRanks) {
     seeded += all.volume[i];
     EXPECT_TRUE(bed_[static_cast<std::size_t>(all.point[i].cell)]);
     EXPECT_GT(all.life[i], 0);
-    if (i > 0) EXPECT_GT(all.id[i], all.id[i - 1]);
+    if (i > 0) {
+      EXPECT_GT(all.id[i], all.id[i - 1]);
+    }
   }
   EXPECT_EQ(all.size(), static_cast<std::size_t>(parcels) * static_cast<std::size_t>(split));
   EXPECT_NEAR(seeded, volume, 1e-12 * volume);
@@ -151,7 +155,9 @@ TEST_F(TracersTest, DisplacementSpreadsAnExcessAndNeverLeavesTheBed) {
   const CellContents after = sum_tracers(tracers, 1, mesh_.cells(), false, [](std::vector<double>&) {});
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
     densest = std::max(densest, after.volume[0][c] / mesh_.cell_volume[c]);
-    if (!bed_[c]) EXPECT_EQ(after.volume[0][c], 0);
+    if (!bed_[c]) {
+      EXPECT_EQ(after.volume[0][c], 0);
+    }
   }
   EXPECT_LT(densest, 0.6);  // from 2.5 in one cell towards 0.5
 }
