@@ -8,6 +8,10 @@
 #include <mpi.h>
 #include <processorCyclicPolyPatch.H>
 #include <processorPolyPatch.H>
+#include <sigFpe.H>
+#include <sigInt.H>
+#include <sigQuit.H>
+#include <sigSegv.H>
 
 #include <algorithm>
 #include <string>
@@ -66,6 +70,15 @@ std::int64_t largest_everywhere(std::int64_t value) {
   return value;
 }
 
+/// argList takes the signals: floating-point traps end the process where our own checks say which cell, and an
+/// interrupt would not reach the program's request to stop.
+void leave_signals_alone() {
+  Foam::sigFpe::unset();
+  Foam::sigInt::unset();
+  Foam::sigQuit::unset();
+  Foam::sigSegv::unset();
+}
+
 }  // namespace
 
 struct FoamCase::State {
@@ -99,6 +112,7 @@ struct FoamCase::State {
       foam_argc = static_cast<int>(words.size());
       foam_argv = word_pointers.data();
       arguments = std::make_unique<Foam::argList>(foam_argc, foam_argv, true, true, false);
+      leave_signals_alone();
       time = std::make_unique<Foam::Time>(Foam::Time::controlDictName, *arguments);
       mesh = std::make_unique<Foam::fvMesh>(
           Foam::IOobject(Foam::fvMesh::defaultRegion, time->timeName(), *time, Foam::IOobject::MUST_READ));

@@ -12,8 +12,9 @@ class fvMesh;
 
 namespace cupola {
 
-/// OpenFOAM started for this process (argList, MPI, Time, errors as exceptions, no chatter) on the case `TASK/foam`,
-/// decomposed where there are several ranks, and the way between its fields and the arrays of BedMesh.
+/// OpenFOAM started for this process (argList, MPI, Time, errors as exceptions, no chatter, signals and floating-point
+/// traps left alone) on the case `TASK/foam`, decomposed where there are several ranks, and the way between its fields
+/// and the arrays of BedMesh.
 ///
 /// Make it before anything else that needs MPI.  MPI is initialised by the first one and finalised when the process
 /// ends. One at a time; several in turn only on one rank.  A program that uses it links `cupola_foam_environment`.

@@ -83,6 +83,7 @@ std::string run_foam_tool(const std::string& program, const std::vector<std::str
   std::vector<std::string> words{program, "-case", case_folder.string()};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 

@@ -113,26 +113,25 @@ void check_against_plan(const BedMesh& mesh, const Campaign& campaign, const Mes
 }
 
 /// What `foam/` was prepared for.
-nlohmann::json purpose(const Task& task) {
+nlohmann::json purpose(const Task& task, const MeshCounts& counts) {
   return {{"campaign_hash", task.campaign_hash},
           {"program_version", task.program_version},
-          {"ranks", task.campaign.launch.ranks}};
-}
-
-bool is_prepared(const std::filesystem::path& case_folder, const Task& task) {
-  const std::filesystem::path stamp = case_folder / "prepared.json";
-  return std::filesystem::exists(stamp) && read_json(stamp) == purpose(task);
+          {"ranks", task.campaign.launch.ranks},
+          {"hopper_top", task.campaign.hopper_top()},
+          {"blocks", hash_text(block_mesh_dictionary(task.campaign, counts))}};
 }
 
 }  // namespace
 
 void prepare(const std::filesystem::path& task_folder, const Task& task) {
   const std::filesystem::path folder = std::filesystem::absolute(task_folder);
-  if (is_prepared(folder / "foam", task)) return;
   const Campaign& campaign = task.campaign;
   check_depth(campaign);
   check_inlet_names(campaign);
   const MeshCounts counts = mesh_counts(campaign);
+  const nlohmann::json wanted = purpose(task, counts);
+  const std::filesystem::path stamp = folder / "foam" / "prepared.json";
+  if (std::filesystem::exists(stamp) && read_json(stamp) == wanted) return;
 
   const std::filesystem::path building = folder / "foam.partial";
   std::filesystem::remove_all(building);
@@ -145,7 +144,7 @@ void prepare(const std::filesystem::path& task_folder, const Task& task) {
   mesh.write(building / "mesh.hdf", task.campaign_hash);
   write_stl(building / "wall.stl", wall_triangles(campaign));
   if (campaign.launch.ranks > 1) run_foam_tool("decomposePar", {"-constant"}, building);
-  write_json_atomically(building / "prepared.json", purpose(task));
+  write_json_atomically(building / "prepared.json", wanted);
 
   std::filesystem::remove_all(folder / "foam");
   publish(building, folder / "foam");

@@ -1,12 +1,14 @@
 // Runs on one rank and under mpirun on several; rank 0 prepares the case.
 #include "physics/mesh/foam_case.hpp"
 
+#include <fenv.h>
 #include <fvMesh.H>
 #include <gtest/gtest.h>
 #include <mpi.h>
 #include <volFields.H>
 
 #include <cmath>
+#include <csignal>
 #include <numeric>
 
 #include "physics/mesh/prepare.hpp"
@@ -88,6 +90,15 @@ TEST(FoamCase, FluxesKeepTheirSense) {
   for (std::size_t i = 0; i < back.size(); ++i) EXPECT_NEAR(back[i], local[i], 1e-13);
 }
 
+void on_interrupt(int /*signal*/) {}
+
+TEST(FoamCase, LeavesSignalsAndFloatingPointTrapsAlone) {
+  EXPECT_EQ(fegetexcept(), 0);
+  struct sigaction action {};
+  sigaction(SIGINT, nullptr, &action);
+  EXPECT_EQ(action.sa_handler, &on_interrupt);
+}
+
 TEST(FoamCase, WrongNumberOfRanksIsRefused) {
   int argc = 0;
   char** argv = nullptr;
@@ -114,6 +125,7 @@ int main(int argc, char** argv) {
   }
   MPI_Barrier(MPI_COMM_WORLD);
   const cupola::BedMesh mesh = cupola::BedMesh::read(cupola::shared_folder / "foam" / "mesh.hdf");
+  std::signal(SIGINT, &cupola::on_interrupt);
   cupola::FoamCase foam(cupola::shared_folder / "foam", argc, argv);
   cupola::bed_mesh = &mesh;
   cupola::foam_case = &foam;

@@ -176,6 +176,9 @@ TEST(Prepare, IsDoneOnceForTheSameCampaignAndRanks) {
   task.campaign.launch.ranks = 3;
   prepare(folder.path(), task);
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "foam" / "processor2" / "constant" / "polyMesh" / "points"));
+  task.campaign.scene.mesh.cell = 0.2;  // changed by hand, under the same hash
+  prepare(folder.path(), task);
+  EXPECT_EQ(BedMesh::read(folder.path() / "foam" / "mesh.hdf").cells(), mesh_counts(task.campaign).cells());
 }
 
 TEST(Prepare, SubdomainsAreBalanced) {
