@@ -5,7 +5,8 @@
 
 namespace cupola {
 
-Cost expected_cost(const Campaign& campaign, const DemTimeStep& dem_step, double parcels, std::size_t cells) {
+Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,
+                   std::size_t cells) {
   const auto mesh_cells = static_cast<double>(cells);
   const bool gas = campaign.scene.gas.has_value();
   Cost cost;
@@ -21,10 +22,15 @@ Cost expected_cost(const Campaign& campaign, const DemTimeStep& dem_step, double
   }
 
   cost.tracers = std::max(parcels, campaign.tracer.tracers_per_cell * mesh_cells);
-  // A quarter of the time in which the bed crosses a cell; a sixth to a third is accurate (docs/models.md).
-  constexpr double crossing_share = 0.25;
-  cost.tracer_time_step = campaign.tracer.time_step.value_or(crossing_share * campaign.scene.mesh.cell /
-                                                             std::max(campaign.descent_rate, 1e-12));
+  // As the tracer stage chooses it where the bed moves evenly: a fifth of the passage of a cell or of the thinnest
+  // layer.
+  constexpr double passage_share = 0.2;
+  double height = campaign.scene.mesh.cell;
+  for (const double thickness : charge.layer_thickness) {
+    if (thickness > 0) height = std::min(height, thickness);
+  }
+  cost.tracer_time_step =
+      campaign.tracer.time_step.value_or(passage_share * height / std::max(campaign.descent_rate, 1e-12));
   cost.tracer_steps = std::ceil(campaign.tracer.duration / cost.tracer_time_step);
   double per_step = cost.tracers * core_seconds_per_tracer_step;
   if (gas && campaign.tracer.gas != TracerSettings::GasModel::none) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 
+#include "physics/plan/charge.hpp"
 #include "physics/plan/dem_time_step.hpp"
 #include "schemas/campaign.hpp"
 
@@ -25,6 +26,7 @@ struct Cost {
   [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / ranks; }
 };
 
-Cost expected_cost(const Campaign& campaign, const DemTimeStep& dem_step, double parcels, std::size_t cells);
+Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,
+                   std::size_t cells);
 
 }  // namespace cupola

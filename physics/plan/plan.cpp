@@ -154,7 +154,7 @@ Plan make_plan(const Campaign& campaign) {
   if (campaign.scene.gas) {
     plan.inlets = inlet_plans(campaign, plan.pressure ? plan.pressure->at_inlets : campaign.scene.gas->outlet_pressure);
   }
-  plan.cost = expected_cost(campaign, plan.dem_step, std::accumulate(parcels.begin(), parcels.end(), 0.0),
+  plan.cost = expected_cost(campaign, plan.charge, plan.dem_step, std::accumulate(parcels.begin(), parcels.end(), 0.0),
                             plan.mesh.counts.cells());
   judge_inlets(campaign, plan);
   judge_batches(campaign, plan);
