@@ -54,7 +54,8 @@ int BedBuilder::species_at(double x, double share, const OreTemperature& tempera
   }
   const Species& species = campaign_.species[chosen];
   if (!species.softening) return static_cast<int>(chosen);
-  const double z = base_ + thickness_ / 2;
+  // The lower edge of the layer decides, so that hardly any ore melts at once.
+  const double z = base_;
   if (z > species.none_below && temperature.at({x, 0, z}, -1) < species.softening->melted)
     return static_cast<int>(chosen);
   const auto solid =

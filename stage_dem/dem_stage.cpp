@@ -28,8 +28,9 @@ constexpr double least_settling = 0.4;
 constexpr double most_settling = 1.5;
 /// Steps between two growths of a radius.
 constexpr long regrowth_steps = 10;
-/// Shortest batch of the window's statistics, s.
-constexpr double least_batch = 0.25;
+/// Length of a batch of the window's statistics, s: ten batches a window, but none shorter than the bed remembers its
+/// velocity, unless that leaves fewer than four.
+double batch_seconds(double window) { return std::max(window / 10, std::min(0.25, window / 4)); }
 /// Times are sums of blocks: less than this apart they are the same, s.
 constexpr double same_time = 1e-9;
 
@@ -55,7 +56,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       raceways_(task.campaign),
       books_(task.campaign),
       books_at_window_(task.campaign),
-      averages_(mesh.cells(), std::max(least_batch, task.campaign.dem.window / 10)) {
+      averages_(mesh.cells(), batch_seconds(task.campaign.dem.window)) {
   if (campaign_.scene.gas && campaign_.dem.gas == DemSettings::GasModel::quasi_steady)
     gas_.emplace(foam, mesh, campaign_, temperature_.gas());
 }
@@ -115,7 +116,9 @@ void DemStage::begin_block() {
   {
     const PartTimer timer(state_.wall_parts, "projection");
     solids_.divide(owned);
-    if (state_.last_block > 0 && (state_.phase == DemPhase::averaging || state_.phase == DemPhase::done)) sample();
+    // A block's motion is sampled where it ended: when the next one begins.
+    const bool in_window = state_.phase == DemPhase::averaging && state_.phase_time > 0;
+    if (in_window || state_.phase == DemPhase::done) sample();
   }
   if (!gas_ || state_.phase == DemPhase::done) return;
   {

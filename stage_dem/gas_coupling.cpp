@@ -10,7 +10,9 @@
 namespace cupola {
 namespace {
 
-constexpr double void_change_allowed = 0.02;
+constexpr double void_change_allowed = 0.05;
+/// Relative change of the fluxes at which an iteration of the flow ends: the force needs no more.
+constexpr double force_tolerance = 1e-2;
 constexpr std::int64_t most_blocks_between = 10;
 /// Interstitial speed below which the gas counts as at rest in the damping, m/s.
 constexpr double least_speed = 0.01;
@@ -44,7 +46,7 @@ void GasCoupling::update(const SolidsOnMesh& solids, bool in_any_case) {
   if (!first && !in_any_case && blocks_since_ < most_blocks_between &&
       change_of_void(bed.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
     return;
-  flow_.solve(bed, temperature_, first ? 1e-4 : 1e-3, first ? 100 : 10);
+  flow_.solve(bed, temperature_, first ? 1e-4 : force_tolerance, first ? 100 : 10);
   void_solved_ = bed.void_fraction;
   blocks_since_ = 0;
   ++solves_;

@@ -19,7 +19,7 @@ class GasCoupling {
  public:
   GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, std::vector<double> gas_temperature);
 
-  /// Solves the flow where the bed has changed: the void fraction, rms over cells with solids, by more than 0.02 since
+  /// Solves the flow where the bed has changed: the void fraction, rms over cells with solids, by more than 0.05 since
   /// the last solution, or ten blocks have gone by.  The criterion sees the state alone, so that a resumed run decides
   /// the same.
   /// @param in_any_case solve even where nothing has changed

@@ -32,7 +32,11 @@ class MpiSession {
   MpiSession(int& argc, char**& argv) {
     int running = 0;
     MPI_Initialized(&running);
-    if (running == 0) MPI_Init(&argc, &argv);
+    if (running != 0) return;
+    // A rank that waits lets others run: ranks share the cores with each other and with the rest of the machine, and
+    // one that spins keeps the one it waits for off its core (measured: 40 times slower on a busy machine).
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+    MPI_Init(&argc, &argv);
   }
   ~MpiSession() {
     int over = 0;
