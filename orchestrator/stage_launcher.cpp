@@ -65,6 +65,8 @@ Command mpirun(int ranks, const std::vector<std::string>& program_and_arguments)
   command.words = {"mpirun", "-n", std::to_string(ranks), "--bind-to", "none"};
   if (ranks > physical_cores()) command.words.emplace_back("--oversubscribe");
   command.words.insert(command.words.end(), program_and_arguments.begin(), program_and_arguments.end());
+  // A rank that waits lets others work: where the cores are shared, waiting in a loop would take most of them.
+  command.environment.emplace("OMPI_MCA_mpi_yield_when_idle", "1");
   if (::geteuid() == 0) {
     command.environment.emplace("OMPI_ALLOW_RUN_AS_ROOT", "1");
     command.environment.emplace("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
