@@ -55,9 +55,13 @@ void check_fields(const FieldFile& result, const std::filesystem::path& file) {
   }
 }
 
-/// JSON holds what is not finite as null; only the height of a zone that is not there may be that.
+/// JSON holds what is not finite as null: the height of a zone that is not there, the packing of a bed without inside.
+bool may_be_unknown(const std::string& path) {
+  return path.find("_zone") != std::string::npos || path.ends_with(".packing_fraction");
+}
+
 void check_numbers(const json& value, const std::string& path, const std::filesystem::path& file) {
-  if (value.is_null() && path.find("_zone") == std::string::npos) throw refused(file, path, "is not a finite number");
+  if (value.is_null() && !may_be_unknown(path)) throw refused(file, path, "is not a finite number");
   if (!value.is_structured()) return;
   for (const auto& [key, inner] : value.items()) check_numbers(inner, path + "." + key, file);
 }
