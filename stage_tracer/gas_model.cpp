@@ -13,8 +13,8 @@ namespace {
 constexpr double lag_over_accuracy = 20;
 constexpr double tight_tolerance = 1e-6;
 constexpr int tight_iterations = 60;
-constexpr double warm_tolerance = 1e-3;
-constexpr int warm_iterations = 6;
+// A warm solution need not be better than the lag allowed: the next one starts from it. One iteration a step loses 0.02 K.
+constexpr int warm_iterations = 3;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void GasModel::follow(const BedState& bed) {
     ++flow_skips_;
     return;
   }
-  solve_flow(bed, warm_tolerance, warm_iterations);
+  solve_flow(bed, campaign_.tracer.accuracy, warm_iterations);
 }
 
 void GasModel::solve_energy(const BedState& bed, const SolidsExchange& solids) {

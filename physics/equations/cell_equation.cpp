@@ -53,7 +53,8 @@ Foam::dictionary solver_controls(bool symmetric, double relative_tolerance) {
     multigrid.add("cacheAgglomeration", Foam::Switch(true));
     multigrid.add("nCellsInCoarsestLevel", Foam::label(20));
     multigrid.add("tolerance", 0.0);
-    multigrid.add("relTol", 0.0);
+    // Also the tolerance of the coarsest level, where 0 would mean iterating to the limit every time.
+    multigrid.add("relTol", 1e-2);
     multigrid.add("nVcycles", Foam::label(1));
     controls.add("solver", Foam::word("PCG"));
     controls.add("preconditioner", multigrid);
