@@ -5,6 +5,7 @@
 
 #include "orchestrator/child_process.hpp"
 #include "orchestrator/commands.hpp"
+#include "orchestrator/report/report.hpp"
 #include "orchestrator/stage_launcher.hpp"
 #include "physics/plan/plan.hpp"
 #include "schemas/campaign_reader.hpp"
@@ -31,7 +32,21 @@ ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& sign
   folder.journal().append(
       "orchestrator-started",
       {{"host", self.host}, {"pid", self.pid}, {"program_version", program_version}, {"at_most", at_most}});
-  return march(folder, launcher, signals, view, options, [] {});
+  // A campaign of days does not end because its report cannot be written: that is said, and `cupola report` makes it
+  // later.
+  const AfterStage renew_report = [&] {
+    try {
+      make_report(folder.path());
+    } catch (const Failure& failure) {
+      view.say(fmt::format("no report: {}", failure.what()));
+    }
+  };
+  try {
+    return march(folder, launcher, signals, view, options, renew_report);
+  } catch (const Failure&) {
+    renew_report();
+    throw;
+  }
 }
 
 }  // namespace

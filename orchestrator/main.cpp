@@ -13,7 +13,7 @@ namespace {
 using cupola::ExitCode;
 using cupola::Failure;
 
-int report(const Failure& failure) {
+int tell(const Failure& failure) {
   fmt::print(stderr, "{}\n", failure.what());
   for (const auto& [key, value] : failure.advice()) fmt::print(stderr, "  try {}: {}\n", key, value);
   return static_cast<int>(failure.code());
@@ -23,11 +23,11 @@ int run_command(const std::function<ExitCode()>& command) {
   try {
     return static_cast<int>(command());
   } catch (const Failure& failure) {
-    return report(failure);
+    return tell(failure);
   } catch (const std::filesystem::filesystem_error& problem) {
-    return report(Failure(ExitCode::input_output, problem.what()));
+    return tell(Failure(ExitCode::input_output, problem.what()));
   } catch (const std::exception& problem) {
-    return report(Failure(ExitCode::wrong_input, problem.what()));
+    return tell(Failure(ExitCode::wrong_input, problem.what()));
   }
 }
 
@@ -85,6 +85,10 @@ int main(int argc, char** argv) {
   CLI::App* status = with_folder(app.add_subcommand("status", "Say how a run stands; changes nothing"));
   with_json(status);
   status->callback([&] { command = [&] { return cupola::status(folder, as_json); }; });
+
+  CLI::App* report =
+      with_folder(app.add_subcommand("report", "Make the report of a run anew, at whatever point it stands"));
+  report->callback([&] { command = [&] { return cupola::report(folder); }; });
 
   CLI::App* init = app.add_subcommand("init", "Write a commented campaign file to begin with");
   init->add_option("DIR", folder, "The folder to write campaign.yaml into")->required();

@@ -90,6 +90,8 @@ class March {
   }
 
   ExitCode stop(const std::string& why) {
+    run_.journal().append("orchestrator-stopped", {{"why", why}});
+    after_stage_();
     view_.say(fmt::format("stopped {}. `cupola resume {}` goes on.", why, run_.path().string()));
     return ExitCode::stopped;
   }

@@ -1,0 +1,206 @@
+#include "orchestrator/report/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "orchestrator/report/json_numbers.hpp"
+
+namespace cupola {
+
+using nlohmann::json;
+
+namespace {
+
+json entry(const std::string& question, const std::string& answer, const std::string& detail) {
+  return {{"question", question}, {"answer", answer}, {"detail", detail}};
+}
+
+/// The last episode of which something is known under this pointer.
+const json* last_episode_with(const json& report, const std::string& pointer) {
+  const json& episodes = report.at("episodes");
+  for (auto episode = episodes.rbegin(); episode != episodes.rend(); ++episode) {
+    if (number_at(*episode, pointer)) {
+      return &*episode;
+    }
+  }
+  return nullptr;
+}
+
+std::string sentences(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) {
+    text += (text.empty() ? "" : " ") + part;
+  }
+  return text;
+}
+
+/// Figures of an episode against their criteria.
+std::vector<std::string> remaining_changes(const json& episode, const json& criteria) {
+  std::vector<std::string> parts;
+  if (const auto value = number_at(episode, "/figures/temperature")) {
+    parts.push_back(fmt::format("Temperature still to change by {:.2g} % (wanted below {:.2g} %).", 100 * *value,
+                                100 * criteria.at("temperature").get<double>()));
+  }
+  if (const auto value = number_at(episode, "/figures/cohesive_zone")) {
+    parts.push_back(fmt::format("Cohesive zone still to move by {:.2g} cells (wanted below {:.2g}).", *value,
+                                criteria.at("cohesive_zone").get<double>()));
+  }
+  if (const auto value = number_at(episode, "/figures/granular_velocity")) {
+    parts.push_back(fmt::format(
+        "Granular velocity differs from the episode before by {:.2g} standard errors (wanted below {:.2g}).", *value,
+        criteria.at("granular_velocity").get<double>()));
+  }
+  return parts;
+}
+
+json has_it_converged(const json& report) {
+  const std::string question = "Has it converged?";
+  const std::string state = report.at("state");
+  const auto episodes = report.at("episodes").size();
+  const json& criteria = report.at("criteria");
+  if (state == "converged") {
+    return entry(question, fmt::format("Yes, after {} episodes", episodes),
+                 fmt::format("All criteria were met in {} episodes on end.", criteria.at("for").get<int>()));
+  }
+  if (state == "steady, ore not melted") {
+    return entry(question, "Steady, but ore leaves unmelted",
+                 "Nothing changes any more, yet too much of the ore leaves the furnace without having melted.");
+  }
+  if (state == "not converged at its limit") {
+    std::vector<std::string> parts{"It can be resumed with a higher limit."};
+    if (!report.at("episodes").empty()) {
+      const std::vector<std::string> changes = remaining_changes(report.at("episodes").back(), criteria);
+      parts.insert(parts.begin(), changes.begin(), changes.end());
+    }
+    return entry(question, fmt::format("No, not within {} episodes", episodes), sentences(parts));
+  }
+  if (state == "failed") {
+    return entry(question, "No, it failed", report.at("description").get<std::string>());
+  }
+  return entry(
+      question, "Not yet",
+      fmt::format("Episode {} of at most {}.", std::max<std::size_t>(episodes, 1), criteria.at("at_most").get<int>()));
+}
+
+json where_is_the_zone(const json& report) {
+  const std::string question = "Where is the cohesive zone?";
+  const json& furnace = report.at("furnace");
+  const json* episode = last_episode_with(report, "/cohesive_zone/height_mean");
+  if (episode == nullptr) {
+    const bool tracer_done = last_episode_with(report, "/mean_solid_temperature") != nullptr;
+    return tracer_done ? entry(question, "There is none", "No ore reaches its melting temperature within the bed.")
+                       : entry(question, "Not known yet", "No tracer stage has ended.");
+  }
+  const json& zone = episode->at("cohesive_zone");
+  std::vector<std::string> parts{
+      fmt::format("Height above z = 0 at which the ore has melted ({:.0f} K), over all columns, after episode {}.",
+                  furnace.at("melting_temperature").get<double>(), episode->at("index").get<int>())};
+  if (const auto softening = number_at(*episode, "/tracer/softening_zone/height_mean")) {
+    parts.push_back(fmt::format("Softening begins at {:.2f} m.", *softening));
+  }
+  if (const auto without = number_at(zone, "/columns_without"); without && *without > 0) {
+    parts.push_back(fmt::format("{:.0f} columns hold no zone.", *without));
+  }
+  return entry(question,
+               fmt::format("{:.2f} m on average, {:.2f} to {:.2f} m", zone.at("height_mean").get<double>(),
+                           number_at(zone, "/height_min").value_or(NAN), number_at(zone, "/height_max").value_or(NAN)),
+               sentences(parts));
+}
+
+json how_does_the_bed_move(const json& report) {
+  const json* episode = last_episode_with(report, "/dem/packing_fraction");
+  if (episode == nullptr) {
+    return entry("How does the bed move?", "Not known yet", "No DEM stage has ended.");
+  }
+  return entry("How does the bed move?",
+               fmt::format("Packed to {:.1f} % by volume", 100 * *number_at(*episode, "/dem/packing_fraction")),
+               "A cold scene: no temperatures are computed.");
+}
+
+json how_sure(const json& report) {
+  const std::string question = "How sure is that?";
+  std::vector<std::string> parts;
+  std::string answer = "Nothing to judge yet";
+  const json* episode = last_episode_with(report, "/change/granular_velocity");
+  if (episode == nullptr) {
+    episode = last_episode_with(report, "/change/temperature");
+  }
+  if (episode != nullptr) {
+    double worst = 0;
+    for (const auto& [rule, change] : episode->at("change").items()) {
+      worst = std::max(worst, change.is_number() ? change.get<double>() : 0.);
+    }
+    answer = worst < 1 ? fmt::format("Remaining changes at most {:.0f} % of what is allowed", 100 * worst)
+                       : fmt::format("Remaining changes up to {:.2g} times what is allowed", worst);
+    parts = remaining_changes(*episode, report.at("criteria"));
+  }
+  if (const auto residual = number_at(report, "/ledger/mass_residual")) {
+    parts.push_back(
+        fmt::format("Mass closes to {:.1e} of the charge", *residual) +
+        (number_at(report, "/ledger/energy_residual")
+             ? fmt::format(", heat to {:.2g} % of the blast's.", 100 * *number_at(report, "/ledger/energy_residual"))
+             : "."));
+  }
+  if (parts.empty()) {
+    parts.emplace_back("A change can be judged from the second episode on.");
+  }
+  return entry(question, answer, sentences(parts));
+}
+
+json what_did_it_cost(const json& report) {
+  double dem_process = 0, dem_wall = 0, tracer_process = 0, tracer_wall = 0;
+  int ranks = 0;
+  for (const json& episode : report.at("episodes")) {
+    dem_process += number_at(episode, "/dem/process_seconds").value_or(0);
+    dem_wall += number_at(episode, "/dem/wall_seconds").value_or(0);
+    tracer_process += number_at(episode, "/tracer/process_seconds").value_or(0);
+    tracer_wall += number_at(episode, "/tracer/wall_seconds").value_or(0);
+    ranks = std::max(ranks, static_cast<int>(number_at(episode, "/dem/ranks").value_or(0)));
+  }
+  std::vector<std::string> parts;
+  if (dem_wall > 0) {
+    parts.push_back(
+        fmt::format("DEM stages: {} of motion in {}.", duration_in_words(dem_process), duration_in_words(dem_wall)));
+  }
+  if (tracer_wall > 0) {
+    parts.push_back(fmt::format("Tracer stages: {} of process time in {}.", duration_in_words(tracer_process),
+                                duration_in_words(tracer_wall)));
+  }
+  return entry("What did it cost?",
+               duration_in_words(report.at("wall_seconds").get<double>()) +
+                   (ranks > 0 ? fmt::format(" on {} rank{}", ranks, ranks == 1 ? "" : "s") : ""),
+               sentences(parts));
+}
+
+}  // namespace
+
+std::string duration_in_words(double seconds) {
+  if (!std::isfinite(seconds)) {
+    return "an unknown time";
+  }
+  if (seconds < 60) {
+    return fmt::format("{:.3g} s", seconds);
+  }
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 3600) {
+    return fmt::format("{} min {} s", whole / 60, whole % 60);
+  }
+  const long long minutes = (whole + 30) / 60;
+  if (whole < 48LL * 3600) {
+    return minutes % 60 == 0 ? fmt::format("{} h", minutes / 60)
+                             : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+  }
+  return fmt::format("{:.3g} days", seconds / 86400);
+}
+
+json answers(const json& report) {
+  const bool hot = report.at("has_heat");
+  return {{"converged", has_it_converged(report)},
+          {"state_of_the_bed", hot ? where_is_the_zone(report) : how_does_the_bed_move(report)},
+          {"certainty", how_sure(report)},
+          {"wall_time", what_did_it_cost(report)}};
+}
+
+}  // namespace cupola

@@ -1,0 +1,97 @@
+#include "orchestrator/report/stage_report.hpp"
+
+#include "schemas/field_file.hpp"
+#include "schemas/files.hpp"
+
+namespace cupola {
+
+namespace {
+
+/// What is known of a stage that has not ended.
+nlohmann::json summary_of_progress(const std::filesystem::path& folder) {
+  const std::optional<Progress> progress = read_progress(folder);
+  if (!progress) {
+    return nlohmann::json::object();
+  }
+  nlohmann::json summary = {{"process_seconds", progress->process_seconds},
+                            {"process_seconds_total", progress->process_seconds_total},
+                            {"wall_seconds", progress->wall_seconds},
+                            {"phase", progress->phase}};
+  for (const auto& [name, value] : progress->monitored) {
+    summary[name] = value;
+  }
+  return summary;
+}
+
+void read_result(StageReport& stage, const RunRecord& run) {
+  try {
+    verify_manifest(stage.state.folder);
+    const FieldFile file(stage.result(), stage.kind == TaskKind::dem ? "dem-result" : "tracer-result");
+    if (file.header().campaign_hash != run.campaign_hash) {
+      stage.sentence = stage.result().string() + ": the result of another campaign";
+      return;
+    }
+    stage.summary = file.summary();
+    stage.summary["cells"] = file.cells();
+    stage.mesh_hash = file.header().mesh_hash;
+    stage.readable = true;
+  } catch (const Failure& failure) {
+    stage.sentence = failure.what();
+  }
+}
+
+}  // namespace
+
+std::string StageReport::state_text() const {
+  switch (state.condition) {
+    case StageState::Condition::absent:
+      return "absent";
+    case StageState::Condition::interrupted:
+      return "interrupted";
+    case StageState::Condition::running:
+      return "running";
+    case StageState::Condition::failed:
+      return "failed";
+    case StageState::Condition::finished:
+      break;
+  }
+  return readable ? "finished" : "damaged";
+}
+
+std::string shown_name(TaskKind kind) { return kind == TaskKind::dem ? "DEM" : "tracer"; }
+
+StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) {
+  StageReport stage;
+  stage.episode = episode;
+  stage.kind = kind;
+  stage.state = stage_state(run.folder, run.journal, episode, kind);
+  stage.summary = nlohmann::json::object();
+  if (stage.state.condition == StageState::Condition::absent) {
+    return stage;
+  }
+  stage.history = read_history(stage.state.folder);
+  if (stage.state.condition == StageState::Condition::finished) {
+    read_result(stage, run);
+  } else {
+    stage.summary = summary_of_progress(stage.state.folder);
+    if (const auto failure = read_failure(stage.state.folder)) {
+      stage.sentence = failure->value("sentence", "");
+    }
+  }
+  return stage;
+}
+
+std::vector<StageReport> read_stage_reports(const RunRecord& run) {
+  std::vector<StageReport> stages;
+  for (int episode = 1;; ++episode) {
+    for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer}) {
+      StageReport stage = read_stage_report(run, episode, kind);
+      if (stage.state.condition == StageState::Condition::absent) {
+        return stages;
+      }
+      stages.push_back(std::move(stage));
+    }
+  }
+}
+
+}  // namespace cupola

@@ -1,0 +1,30 @@
+// The report's page: reads the data that stands in it and lays it out.
+import { answers, heading, warnings } from "./answers.js";
+import { convergenceSection } from "./convergence.js";
+import { mapsSection, zoneFigure } from "./furnace.js";
+import { ledgerSection } from "./ledgers.js";
+import { drawAll, element } from "./page.js";
+import { provenanceSection } from "./provenance.js";
+import { qualitySection } from "./quality.js";
+import { stagesSection } from "./stages.js";
+import { temperatureFigure, zoneHeightFigure } from "./time_series.js";
+
+const report = JSON.parse(document.getElementById("report-data").textContent);
+document.title = `${report.campaign}: ${report.state}`;
+
+const courseFigures = [zoneFigure(report), temperatureFigure(report), zoneHeightFigure(report)].filter(Boolean);
+const sections = [
+  heading(report),
+  answers(report),
+  warnings(report),
+  courseFigures.length ? element("h2", {}, "The thermal state and the way to it") : null,
+  courseFigures.length ? element("div", { class: "charts" }, courseFigures) : null,
+  mapsSection(report),
+  convergenceSection(report),
+  ledgerSection(report),
+  qualitySection(report),
+  stagesSection(report),
+  provenanceSection(report),
+];
+document.getElementById("report").append(...sections.filter(Boolean).flat());
+drawAll();

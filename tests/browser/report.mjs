@@ -1,0 +1,114 @@
+// Opens a report in Chromium as a reader would and looks whether everything has been drawn:
+//   node report.mjs REPORT_FOLDER OUTPUT_FOLDER
+// Screenshots and the printed page are left in OUTPUT_FOLDER.
+import assert from "node:assert/strict";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import puppeteer from "puppeteer-core";
+
+const [reportFolder, outputFolder] = process.argv.slice(2).map((path) => resolve(path));
+assert(outputFolder, "usage: node report.mjs REPORT_FOLDER OUTPUT_FOLDER");
+const report = JSON.parse(readFileSync(join(reportFolder, "report.json"), "utf8"));
+mkdirSync(outputFolder, { recursive: true });
+
+/** Charts this report must show, from its numbers. */
+function expectedCharts({ charts, episodes, has_heat: hot }) {
+  const finished = episodes.some(({ tracer }) => tracer?.state === "finished");
+  const names = [];
+  if (hot && charts.tracer_history.some(({ mean_solid_temperature: values }) => values?.length)) names.push("temperature_history");
+  if (charts.cohesive_zones.length) names.push("cohesive_zones");
+  if (finished) names.push("map_solids_fraction", "map_solids_speed", "wall_time");
+  if (finished && hot) names.push("map_solids_temperature");
+  if (charts.maps.episodes.some(({ fields }) => fields.gas_temperature)) names.push("map_gas_temperature");
+  if (charts.dem_history.some(({ time }) => time.length)) names.push("parcels");
+  if (episodes.some(({ change }) => change.granular_velocity > 0)) names.push("convergence");
+  return names;
+}
+
+/** In the page: how much of each chart has been drawn. */
+const lookAtCharts = () => Object.fromEntries([...document.querySelectorAll("figure[data-chart]")].map((figure) => {
+  const svg = figure.querySelector(".drawing svg");
+  const canvas = figure.querySelector(".drawing canvas");
+  const box = figure.querySelector(".drawing").getBoundingClientRect();
+  let marks = 0;
+  let colours = 0;
+  if (svg) {
+    marks = [...svg.querySelectorAll("path")].filter((path) => path.getBBox().width + path.getBBox().height > 2).length;
+    colours = new Set([...svg.querySelectorAll("path")].flatMap((path) => [path.getAttribute("stroke"), path.getAttribute("fill")])).size;
+  } else if (canvas) {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4) {
+      if (data[i + 3] > 0) {
+        marks += 1;
+        seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+      }
+    }
+    colours = seen.size;
+  }
+  return [figure.dataset.chart, { kind: svg ? "svg" : canvas ? "canvas" : "none", marks, colours, width: box.width, height: box.height }];
+}));
+
+const profile = mkdtempSync(join(tmpdir(), "cupola-chromium-"));
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  userDataDir: profile,
+  headless: true,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage"],
+});
+
+try {
+  for (const width of [1280, 360]) {
+    const page = await browser.newPage();
+    const complaints = [];
+    page.on("console", (message) => ["error", "warn"].includes(message.type()) && complaints.push(message.text()));
+    page.on("pageerror", (error) => complaints.push(error.message));
+    page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks for ${request.url()}`));
+    await page.setViewport({ width, height: 800 });
+    await page.goto(pathToFileURL(join(reportFolder, "index.html")).href, { waitUntil: "load" });
+
+    // Before anything is asserted, so that a failure can be looked at; the charts are drawn by now or never.
+    await page.screenshot({ path: join(outputFolder, `report-${width}.png`), fullPage: true });
+
+    // Without any scrolling: what stands below the fold must be there too.
+    const charts = await page.evaluate(lookAtCharts);
+    console.log(`width ${width}:`, charts);
+    for (const name of expectedCharts(report)) assert(name in charts, `chart ${name} is missing`);
+    for (const [name, { kind, marks, colours, width: drawn, height }] of Object.entries(charts)) {
+      assert(drawn > 200 && height > 80, `chart ${name} is ${drawn} x ${height}`);
+      assert(kind === "svg" ? marks > 8 && colours >= 3 : marks > 5000 && colours > 20, `chart ${name} has not drawn: ${marks} marks, ${colours} colours`);
+    }
+    const pageText = await page.evaluate(() => document.body.innerText);
+    for (const { question, answer } of Object.values(report.answers)) {
+      assert(pageText.includes(question) && pageText.includes(answer), `the answer to "${question}" is missing`);
+    }
+    for (const warning of report.warnings) assert(pageText.includes(warning), `the warning "${warning}" is missing`);
+    assert(!/\b(undefined|NaN|\[object)/.test(pageText), "a number is missing in the text");
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert(overflow <= 0, `the page is ${overflow} pixels wider than a screen of ${width}`);
+
+    if (width > 1000 && Object.keys(charts).length) {
+      const client = await browser.target().createCDPSession();
+      await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: outputFolder });
+      for (const name of Object.keys(charts)) {
+        const file = join(outputFolder, `${name}.csv`);
+        rmSync(file, { force: true });
+        await page.evaluate((chart) => document.querySelector(`figure[data-chart="${chart}"] button`).click(), name);
+        for (let waited = 0; !existsSync(file) && waited < 5000; waited += 50) await new Promise((done) => setTimeout(done, 50));
+        const lines = readFileSync(file, "utf8").trim().split("\r\n");
+        assert(lines.length > 1, `the CSV of ${name} has no rows`);
+        assert(lines.every((line) => line.split(",").length === lines[0].split(",").length), `the CSV of ${name} is ragged`);
+      }
+      writeFileSync(join(outputFolder, "report.pdf"), await page.pdf({ format: "A4" }));
+    }
+    assert.deepEqual(complaints, [], "the page complains");
+    await page.close();
+  }
+} finally {
+  await browser.close();
+  rmSync(profile, { recursive: true, force: true });
+}
+console.log(`drawn; pictures in ${outputFolder}: ${readdirSync(outputFolder).join(", ")}`);

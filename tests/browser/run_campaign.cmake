@@ -1,0 +1,10 @@
+# Runs a campaign afresh: cmake -DCUPOLA=... -DCAMPAIGN=... -DRUN=... -P run_campaign.cmake
+file(REMOVE_RECURSE "${RUN}")
+execute_process(COMMAND "${CUPOLA}" run "${CAMPAIGN}" --run-dir "${RUN}" RESULT_VARIABLE status)
+# 75: ended at its limit of episodes, which is an end that a report must show as well.
+if(NOT status EQUAL 0 AND NOT status EQUAL 75)
+  message(FATAL_ERROR "cupola run ended with ${status}")
+endif()
+if(NOT EXISTS "${RUN}/report/index.html" OR NOT EXISTS "${RUN}/report/report.json")
+  message(FATAL_ERROR "cupola run left no report in ${RUN}/report")
+endif()
