@@ -100,8 +100,10 @@ class LiggghtsEngine final : public Engine {
   void add(const std::vector<Parcel>& parcels) override {
     save_contact_history();
     const std::int64_t expected = count() + static_cast<std::int64_t>(parcels.size());
-    for (const auto& parcel : parcels)
+    for (auto parcel : parcels) {
+      parcel.position[1] = wrapped(parcel.position[1]);
       if (owns(parcel.position)) create(parcel);
+    }
     renumber_map();
     if (liggghts_->atom->natoms != expected) fail_outside(parcels);
     if (!ready_ && expected > 0) make_ready();
@@ -253,6 +255,14 @@ class LiggghtsEngine final : public Engine {
         .at("step", std::to_string(step()))
         .at("parcel", std::to_string(lost))
         .advise("dem.time_step", fmt::format("{:.3g} s", liggghts_->update->dt / 2));
+  }
+
+  /// y inside the period: LIGGGHTS wraps only when it rebuilds its neighbour lists, so that a packing's y may lie just
+  /// beyond.
+  [[nodiscard]] double wrapped(double y) const {
+    if (depth_ == 0) return y;
+    const double inside = y - depth_ * std::floor(y / depth_ + 0.5);
+    return inside < depth_ / 2 ? inside : -depth_ / 2;
   }
 
   /// The least id that was there before and is nowhere now.
