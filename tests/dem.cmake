@@ -7,7 +7,7 @@ foreach(part engine parts)
     cupola_mpi_test(dem_${part}_${ranks} LABEL verification RANKS ${ranks} PROGRAM test_dem_${part})
   endforeach()
 endforeach()
-target_sources(test_dem_parts PRIVATE support/box_mesh.cpp)
+target_link_libraries(test_dem_parts PRIVATE cupola_box_mesh)
 
 cupola_test(dem_program LABEL workflow SOURCES workflow/dem_program_test.cpp LIBRARIES cupola_schemas)
 add_dependencies(dem_program cupola-dem)

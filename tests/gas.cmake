@@ -1,5 +1,5 @@
 # Tests of physics/equations, physics/projection and physics/gas.
-cupola_library(cupola_box_mesh support/box_mesh.cpp)
+cupola_library(cupola_box_mesh support/box_mesh.cpp support/structured_mesh.cpp)
 target_link_libraries(cupola_box_mesh PUBLIC cupola_bed_mesh)
 
 cupola_test(cell_sums_test LABEL unit

@@ -7,7 +7,7 @@
 
 #include "fvMesh.H"
 #include "lduMatrix.H"
-#include "physics/equations/face_geometry.hpp"
+#include "physics/mesh/foam_errors.hpp"
 #include "schemas/failure.hpp"
 #include "volFields.H"
 #include "zeroGradientFvPatchFields.H"
@@ -38,30 +38,35 @@ std::vector<double> residual_of(const BedMesh& mesh, const CellCoefficients& coe
   return residual;
 }
 
-/// Solvers that converge on the graded, layered meshes of furnaces (docs/gas.md).
-Foam::dictionary solver_controls(bool symmetric, double relative_tolerance) {
+/// Below this number of cells incomplete Cholesky is cheaper than a multigrid cycle (docs/gas.md).
+constexpr std::size_t multigrid_from_cells = 20000;
+
+Foam::dictionary solver_controls(bool symmetric, bool multigrid, double relative_tolerance) {
   Foam::dictionary controls;
   controls.add("tolerance", 0.0);
   controls.add("relTol", relative_tolerance);
-  controls.add("maxIter", Foam::label(500));
-  if (symmetric) {
-    Foam::dictionary multigrid;
-    multigrid.add("preconditioner", Foam::word("GAMG"));
-    multigrid.add("smoother", Foam::word("symGaussSeidel"));
-    multigrid.add("agglomerator", Foam::word("faceAreaPair"));
-    multigrid.add("mergeLevels", Foam::label(1));
-    multigrid.add("cacheAgglomeration", Foam::Switch(true));
-    multigrid.add("nCellsInCoarsestLevel", Foam::label(20));
-    multigrid.add("tolerance", 0.0);
-    // Also the tolerance of the coarsest level, where 0 would mean iterating to the limit every time.
-    multigrid.add("relTol", 1e-2);
-    multigrid.add("nVcycles", Foam::label(1));
-    controls.add("solver", Foam::word("PCG"));
-    controls.add("preconditioner", multigrid);
-  } else {
-    controls.add("solver", Foam::word("PBiCGStab"));
-    controls.add("preconditioner", Foam::word("DILU"));
+  controls.add("maxIter", Foam::label(multigrid ? 50 : 1000));
+  controls.add("solver", Foam::word(symmetric ? "PCG" : "PBiCGStab"));
+  if (!symmetric || !multigrid) {
+    controls.add("preconditioner", Foam::word(symmetric ? "DIC" : "DILU"));
+    return controls;
   }
+  // As many sweeps before as after, so that the cycle is symmetric, as conjugate gradients want it: half the cycles.
+  Foam::dictionary cycle;
+  cycle.add("preconditioner", Foam::word("GAMG"));
+  cycle.add("smoother", Foam::word("DIC"));
+  cycle.add("nPreSweeps", Foam::label(1));
+  cycle.add("nPostSweeps", Foam::label(1));
+  cycle.add("nFinestSweeps", Foam::label(1));
+  cycle.add("agglomerator", Foam::word("faceAreaPair"));
+  cycle.add("mergeLevels", Foam::label(1));
+  cycle.add("cacheAgglomeration", Foam::Switch(true));
+  cycle.add("nCellsInCoarsestLevel", Foam::label(20));
+  cycle.add("tolerance", 0.0);
+  // Also the tolerance of the coarsest level, where 0 would mean iterating to the limit every time.
+  cycle.add("relTol", 1e-3);
+  cycle.add("nVcycles", Foam::label(1));
+  controls.add("preconditioner", cycle);
   return controls;
 }
 
@@ -83,8 +88,8 @@ struct CellEquation::State {
   }
 
   /// One call of OpenFOAM's solver: an approximate correction for the residual, over all cells.
-  std::vector<double> correct(const CellCoefficients& coefficients, const std::vector<double>& residual,
-                              double relative_tolerance, int& cycles) {
+  std::vector<double> correct(const std::string& what, const CellCoefficients& coefficients,
+                              const std::vector<double>& residual, double relative_tolerance, int& cycles) {
     const Foam::fvMesh& local = foam.mesh();
     Foam::lduMatrix matrix(local);
     const auto diagonal = foam.local(coefficients.diagonal);
@@ -112,11 +117,12 @@ struct CellEquation::State {
     Foam::scalarField source(local.nCells());
     std::copy(local_residual.begin(), local_residual.end(), source.begin());
     correction = Foam::dimensionedScalar("zero", Foam::dimless, 0);
-    const auto performance = Foam::lduMatrix::solver::New(correction.name(), matrix, coupling, on_diagonal,
-                                                          correction.boundaryField().scalarInterfaces(),
-                                                          solver_controls(coefficients.symmetric, relative_tolerance))
-                                 ->solve(correction.primitiveFieldRef(), source);
-    cycles += performance.nIterations();
+    with_foam_errors(ExitCode::diverged, what, [&] {
+      const auto solver = Foam::lduMatrix::solver::New(
+          correction.name(), matrix, coupling, on_diagonal, correction.boundaryField().scalarInterfaces(),
+          solver_controls(coefficients.symmetric, mesh.cells() >= multigrid_from_cells, relative_tolerance));
+      cycles += solver->solve(correction.primitiveFieldRef(), source).nIterations();
+    });
     const auto& values = correction.primitiveField();
     return foam.everywhere(std::vector<double>(values.begin(), values.end()));
   }
@@ -149,10 +155,14 @@ CellEquation::Result CellEquation::solve(const std::string& what, const CellCoef
   std::vector<double> residual = residual_of(state.mesh, coefficients, source, x);
   result.residual = sum_of_magnitudes(residual);
   if (!std::isfinite(result.residual)) state.not_finite(what, residual);
-  constexpr int most_rounds = 12;
+  const bool multigrid = coefficients.symmetric && state.mesh.cells() >= multigrid_from_cells;
+  // Multigrid cycles are not quite symmetric, so that long runs of conjugate gradients with them slow down: begin anew
+  // more often.
+  const double most_at_once = multigrid ? 1e-3 : 1e-10;
+  constexpr int most_rounds = 30;
   for (int round = 0; round < most_rounds && result.residual > tolerance; ++round) {
-    const double wanted = std::clamp(0.3 * tolerance / result.residual, 1e-10, 0.1);
-    const auto correction = state.correct(coefficients, residual, wanted, result.cycles);
+    const double wanted = std::clamp(0.3 * tolerance / result.residual, most_at_once, 0.1);
+    const auto correction = state.correct(what, coefficients, residual, wanted, result.cycles);
     auto improved = x;
     for (std::size_t cell = 0; cell < x.size(); ++cell) improved[cell] += correction[cell];
     auto left = residual_of(state.mesh, coefficients, source, improved);

@@ -34,7 +34,7 @@ class DarcyForchheimer {
         0;  ///< of the last iteration: relative change of the face mass fluxes and of the pressure rise, the larger
     double mass_residual = 0;  ///< sum over cells of |div G| over the blast
   };
-  /// Iterates until `change` falls below `tolerance`.  Whatever the tolerance, each iteration conserves mass.
+  /// Iterates until `change` falls below `tolerance`.  Whatever the tolerance, the fluxes conserve mass.
   /// @throws Failure diverged (names the cell), also for a cell without gas
   Result solve(const BedState& bed, const std::vector<double>& gas_temperature, double tolerance, int most_iterations);
 

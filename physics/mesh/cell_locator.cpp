@@ -126,6 +126,28 @@ struct CellLocator::State {
     });
   }
 
+  /// From cell to cell, each time across the face the point lies farthest outside of; -1 where that does not lead there
+  /// in a few steps.
+  [[nodiscard]] std::int64_t walk(std::int64_t cell, const Vector3& point) const {
+    constexpr int most_steps = 4;
+    for (int step = 0; step < most_steps && cell >= 0; ++step) {
+      const auto& sides = planes[static_cast<std::size_t>(cell)];
+      std::size_t worst = sides.size();
+      double farthest = 0;
+      for (std::size_t side = 0; side < sides.size(); ++side) {
+        const auto& [normal, offset] = sides[side];
+        const double beyond = normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2] - offset;
+        if (beyond > farthest) {
+          farthest = beyond;
+          worst = side;
+        }
+      }
+      if (worst == sides.size()) return cell;
+      cell = mesh.across(cell, mesh.cell_faces[static_cast<std::size_t>(cell)][worst]);
+    }
+    return -1;
+  }
+
   [[nodiscard]] Vector3 wrapped(const Vector3& point) const {
     Vector3 inside = point;
     if (mesh.periodic_depth > 0 && (point[1] < mesh.lower[1] || point[1] > mesh.upper[1])) {
@@ -161,11 +183,8 @@ std::int64_t CellLocator::find(const Vector3& point, std::int64_t guess) const {
   const Vector3 inside = state.wrapped(point);
   if (state.far_outside(inside)) return -1;
   if (guess >= 0) {
-    if (state.holds(guess, inside)) return guess;
-    for (const std::int64_t face : state.mesh.cell_faces[static_cast<std::size_t>(guess)]) {
-      const std::int64_t other = state.mesh.across(guess, face);
-      if (other >= 0 && state.holds(other, inside)) return other;
-    }
+    const std::int64_t cell = state.walk(guess, inside);
+    if (cell >= 0) return cell;
   }
   const std::size_t bin =
       state.bin_number(state.bin_along(0, inside[0]), state.bin_along(1, inside[1]), state.bin_along(2, inside[2]));

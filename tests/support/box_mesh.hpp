@@ -6,8 +6,8 @@
 
 namespace cupola::testing {
 
-/// A block of hexahedra as a BedMesh, without OpenFOAM: for tests of what works on plain arrays.  Patches: `wall` (x
-/// sides), `front` and `back` (periodic where asked, else part of `wall`), `bottom` (wall), `outlet` (top).
+/// A block of hexahedra between two corners as a BedMesh (structured_mesh.hpp): for tests of what works on plain
+/// arrays.
 struct BoxMesh {
   std::array<std::int64_t, 3> cells{4, 4, 4};
   Vector3 lower{0, 0, 0};

