@@ -1,4 +1,4 @@
-# Not run by ctest: bench_gas prepare ..., bench_gas run ... (see bench/gas.cpp).
+# Seconds by part of gas, projection and cleaning (bench/gas.cpp).
 add_executable(bench_gas gas.cpp)
 cupola_own_code(bench_gas)
 target_link_libraries(bench_gas PRIVATE cupola_gas cupola_projection cupola_foam_environment fmt::fmt)

@@ -7,6 +7,7 @@
 #include "physics/closures/gas_properties.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/gas/bed_gas.hpp"
+#include "physics/mesh/cell_locator.hpp"
 #include "schemas/failure.hpp"
 #include "tests/support/foam_scene.hpp"
 #include "tests/support/furnaces.hpp"
@@ -95,6 +96,33 @@ TEST(DarcyForchheimer, HotAndColdLayersOfTwoGrainsAreExact) {
     EXPECT_NEAR(g[2], flux, 1e-9 * flux);
     EXPECT_NEAR(g[0], 0, 1e-9 * flux);
   }
+}
+
+TEST(DarcyForchheimer, FlowFansOutBetweenSlantedWalls) {
+  // Half width 0.3 to 0.6 m over 1.5 m: away from the ends the gas flows radially from the walls' common line 1.5 m
+  // below, so that psi falls along circles' radii, and mid-height it is larger at x = 0 than at x by r G x^2/(2 R).
+  Campaign campaign = furnaces::box();
+  campaign.scene.geometry.kind = Geometry::Kind::slot;
+  campaign.scene.geometry.profile = {{0, 0.3}, {1.5, 0.6}};
+  campaign.scene.mesh.cell = 0.05;
+  campaign.drag = DragLaw::ergun;
+  campaign.scene.gas->viscosity = 1;  // no inertial part: linear
+  campaign.scene.gas->inlets[0].mass_flow = 1e-4;
+  FoamScene scene(campaign);
+  DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
+  flow.solve(uniform_bed(scene.mesh, 0.42, 0.01), std::vector<double>(scene.mesh.cells(), 900), 1e-10, 100);
+  const double resistance =
+      molar_gas_constant / campaign.scene.gas->molar_mass * 900 * drag_resistance(DragLaw::ergun, 0.42, 0.01, 1, 1, 0);
+  const auto& psi = flow.warm_start().squared_pressure;
+  const CellLocator locator(scene.mesh);
+  const auto middle = locator.find({0.01, 0.01, 0.76});
+  const auto side = locator.find({0.42, 0.01, 0.76});
+  const Vector3 &near = scene.mesh.cell_centre[middle], &far = scene.mesh.cell_centre[side];
+  const double radius = 1.5 + near[2];
+  const double expected =
+      resistance * flow.mass_flux()[middle][2] * (far[0] * far[0] - near[0] * near[0]) / (2 * radius);
+  EXPECT_NEAR(psi[middle] - psi[side], expected, 0.05 * expected);
+  EXPECT_NEAR(flow.mass_flux()[side][0] / flow.mass_flux()[side][2], far[0] / radius, 0.02 * far[0] / radius);
 }
 
 TEST(DarcyForchheimer, AnEmptyFreeboardCostsNoPressure) {
