@@ -5,9 +5,11 @@ endif()
 cupola_test(
   unit_report
   LABEL unit
-  SOURCES unit/report/test_answers.cpp unit/report/test_json_numbers.cpp unit/report/test_mid_plane.cpp
+  SOURCES unit/report/test_answers.cpp unit/report/test_json_numbers.cpp unit/report/test_make_report.cpp
+          unit/report/test_mid_plane.cpp
           unit/report/test_report_page.cpp unit/report/test_warnings.cpp
   LIBRARIES cupola_report)
+target_compile_definitions(unit_report PRIVATE CUPOLA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 
 if(NOT TARGET cupola OR NOT TARGET cupola-dem OR NOT TARGET cupola-tracer)
   return()

@@ -185,7 +185,7 @@ std::string duration_in_words(double seconds) {
   }
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 3600) {
-    return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return whole % 60 == 0 ? fmt::format("{} min", whole / 60) : fmt::format("{} min {} s", whole / 60, whole % 60);
   }
   const long long minutes = (whole + 30) / 60;
   if (whole < 48LL * 3600) {

@@ -39,11 +39,20 @@ void add_clamps(const json& episode, std::vector<std::string>& list) {
     return;
   }
   for (const auto& [name, number] : episode.at(place).items()) {
-    if (number.is_number() && number.get<double>() > 0) {
+    if (!number.is_number() || number.get<double>() <= 0) {
+      continue;
+    }
+    const int index = episode.at("index").get<int>();
+    if (name == "void_fraction_cells") {
+      list.push_back(fmt::format(
+          "Tracer stage {}: in {:.0f} cells the bed is denser than the gas model allows; there the gas sees the "
+          "least void fraction.",
+          index, number.get<double>()));
+    } else {
       std::string words = name;
       std::replace(words.begin(), words.end(), '_', ' ');
-      list.push_back(fmt::format("Limit of the model met in tracer stage {}: {} ({:.6g}).",
-                                 episode.at("index").get<int>(), words, number.get<double>()));
+      list.push_back(fmt::format("Tracer stage {}: a limit of the model was met: {} ({:.6g}).", index, words,
+                                 number.get<double>()));
     }
   }
 }

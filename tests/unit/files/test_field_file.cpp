@@ -1,14 +1,13 @@
 #include <gmock/gmock.h>
 
+#include "raw_files.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/version.hpp"
-#include "scratch_folder.hpp"
 
 namespace cupola {
 namespace {
 
 using test::failure_of;
-using test::ScratchFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -37,8 +36,8 @@ class FieldFiles : public testing::Test {
     writer.commit();
   }
 
-  ScratchFolder folder;
-  std::filesystem::path file = folder / "result.hdf";
+  TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "result.hdf";
   FileHeader header{"dem-result", "xxh3:c", "xxh3:m"};
 };
 

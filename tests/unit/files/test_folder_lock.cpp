@@ -5,18 +5,17 @@
 
 #include <array>
 
+#include "raw_files.hpp"
 #include "schemas/files.hpp"
-#include "scratch_folder.hpp"
 
 namespace cupola {
 namespace {
 
 using test::failure_of;
-using test::ScratchFolder;
 using testing::HasSubstr;
 
 TEST(FolderLock, IsHeldForTheObjectsLife) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_FALSE(FolderLock::holder(folder.path()));
   {
     const FolderLock lock(folder.path());
@@ -30,7 +29,7 @@ TEST(FolderLock, IsHeldForTheObjectsLife) {
 }
 
 TEST(FolderLock, OfAnotherProcessIsSeenAndEndsWithItHoweverItEnds) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   std::array<int, 2> ready{};
   ASSERT_EQ(::pipe(ready.data()), 0);
   const pid_t child = ::fork();
@@ -53,7 +52,7 @@ TEST(FolderLock, OfAnotherProcessIsSeenAndEndsWithItHoweverItEnds) {
 
 /// A stage that outlives the orchestrator that started it must not keep the run folder locked.
 TEST(FolderLock, IsNotInheritedByProgramsItStarts) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   pid_t child = -1;
   {
     const FolderLock lock(folder.path());

@@ -4,14 +4,13 @@
 #include <limits>
 #include <random>
 
+#include "raw_files.hpp"
 #include "schemas/hdf.hpp"
-#include "scratch_folder.hpp"
 
 namespace cupola {
 namespace {
 
 using test::failure_of;
-using test::ScratchFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -31,8 +30,8 @@ class Hdf : public testing::Test {
     writer.commit();
   }
 
-  ScratchFolder folder;
-  std::filesystem::path file = folder / "a.hdf";
+  TemporaryFolder folder;
+  std::filesystem::path file = folder.path() / "a.hdf";
   std::vector<double> position{0.1, -2e-300, std::numeric_limits<double>::infinity(), std::nextafter(1.0, 2.0), 5, 6};
   std::vector<std::int64_t> id{std::numeric_limits<std::int64_t>::min(), 7};
   std::vector<std::uint8_t> bytes{0, 255, 1, 0};
@@ -95,22 +94,22 @@ TEST_F(Hdf, LeavesNothingWithoutCommit) {
 }
 
 TEST_F(Hdf, RefusesMisuse) {
-  HdfWriter writer(folder / "b.hdf");
+  HdfWriter writer(folder.path() / "b.hdf");
   EXPECT_EQ(failure_of([&] { writer.write("a", std::vector<double>(4), 3); }).code(), ExitCode::input_output);
   writer.write("a", std::vector<double>(3), 3);
   EXPECT_THAT(failure_of([&] { writer.write("a", std::vector<double>(3), 3); }).what(), HasSubstr("'a'"));
   writer.commit();
   EXPECT_THROW(writer.write("b", std::vector<double>(3)), Failure);
-  const Failure nowhere = failure_of([&] { HdfWriter(folder / "no/such/folder.hdf"); });
+  const Failure nowhere = failure_of([&] { HdfWriter(folder.path() / "no/such/folder.hdf"); });
   EXPECT_EQ(nowhere.code(), ExitCode::input_output);
 }
 
 TEST_F(Hdf, MissingFileOrGarbageIsAFailure) {
-  EXPECT_EQ(failure_of([&] { HdfReader(folder / "none.hdf"); }).code(), ExitCode::input_output);
+  EXPECT_EQ(failure_of([&] { HdfReader(folder.path() / "none.hdf"); }).code(), ExitCode::input_output);
   EXPECT_EQ(failure_of([&] { HdfReader(folder.path()); }).code(), ExitCode::input_output);
   for (const std::string& content : {std::string(), std::string("task: dem\n"), std::string(5000, '\x89')}) {
-    test::write_raw(folder / "garbage.hdf", content);
-    const Failure failure = failure_of([&] { HdfReader(folder / "garbage.hdf"); });
+    test::write_raw(folder.path() / "garbage.hdf", content);
+    const Failure failure = failure_of([&] { HdfReader(folder.path() / "garbage.hdf"); });
     EXPECT_EQ(failure.code(), ExitCode::input_output);
     EXPECT_THAT(failure.what(), HasSubstr("garbage.hdf: not a whole HDF5 file"));
   }
@@ -119,8 +118,9 @@ TEST_F(Hdf, MissingFileOrGarbageIsAFailure) {
 TEST_F(Hdf, TruncatedAnywhereIsAFailure) {
   const std::string whole = test::raw_bytes(file);
   for (std::size_t length = 0; length < whole.size(); length += 97) {
-    test::write_raw(folder / "cut.hdf", whole.substr(0, length));
-    EXPECT_EQ(failure_of([&] { HdfReader(folder / "cut.hdf"); }).code(), ExitCode::input_output) << length << " bytes";
+    test::write_raw(folder.path() / "cut.hdf", whole.substr(0, length));
+    EXPECT_EQ(failure_of([&] { HdfReader(folder.path() / "cut.hdf"); }).code(), ExitCode::input_output)
+        << length << " bytes";
   }
 }
 
@@ -151,8 +151,8 @@ TEST_F(Hdf, DamagedBytesNeverCrash) {
     for (int flip = 0; flip < 3; ++flip) {
       damaged[random() % damaged.size()] = static_cast<char>(random());
     }
-    test::write_raw(folder / "damaged.hdf", damaged);
-    EXPECT_NO_THROW(read_everything(folder / "damaged.hdf")) << "attempt " << attempt;
+    test::write_raw(folder.path() / "damaged.hdf", damaged);
+    EXPECT_NO_THROW(read_everything(folder.path() / "damaged.hdf")) << "attempt " << attempt;
   }
 }
 

@@ -3,65 +3,64 @@
 #include <cmath>
 #include <limits>
 
+#include "raw_files.hpp"
 #include "schemas/files.hpp"
-#include "scratch_folder.hpp"
 
 namespace cupola {
 namespace {
 
 using test::failure_of;
-using test::ScratchFolder;
 using testing::HasSubstr;
 
 /// XXH3-128 of the empty input with seed 0, from xxHash's published test vectors.
 TEST(Hash, OfNothingIsThePublishedOne) { EXPECT_EQ(hash_text(""), "xxh3:99aa06d3014798d86001c324468d497f"); }
 
 TEST(Hash, OfAFileIsThatOfItsText) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   for (const std::size_t length : {0U, 1U, 240U, 241U, 3U << 20U}) {
     std::string text(length, 'x');
-    test::write_raw(folder / "a", text);
-    EXPECT_EQ(hash_file(folder / "a"), hash_text(text));
+    test::write_raw(folder.path() / "a", text);
+    EXPECT_EQ(hash_file(folder.path() / "a"), hash_text(text));
     text += 'y';
-    EXPECT_NE(hash_file(folder / "a"), hash_text(text));
+    EXPECT_NE(hash_file(folder.path() / "a"), hash_text(text));
   }
-  EXPECT_EQ(failure_of([&] { hash_file(folder / "none"); }).code(), ExitCode::input_output);
+  EXPECT_EQ(failure_of([&] { hash_file(folder.path() / "none"); }).code(), ExitCode::input_output);
 }
 
 TEST(AtomicWrite, ReplacesWholeAndLeavesNoTemporary) {
-  const ScratchFolder folder;
-  write_text_atomically(folder / "a", "old");
-  test::write_raw(temporary_beside(folder / "a"), "left by a killed program, and longer than the new text");
-  write_text_atomically(folder / "a", "new");
-  EXPECT_EQ(test::raw_bytes(folder / "a"), "new");
-  EXPECT_EQ(read_text(folder / "a"), "new");
-  EXPECT_FALSE(std::filesystem::exists(temporary_beside(folder / "a")));
+  const TemporaryFolder folder;
+  write_text_atomically(folder.path() / "a", "old");
+  test::write_raw(temporary_beside(folder.path() / "a"), "left by a killed program, and longer than the new text");
+  write_text_atomically(folder.path() / "a", "new");
+  EXPECT_EQ(test::raw_bytes(folder.path() / "a"), "new");
+  EXPECT_EQ(read_text(folder.path() / "a"), "new");
+  EXPECT_FALSE(std::filesystem::exists(temporary_beside(folder.path() / "a")));
 }
 
 TEST(AtomicWrite, AFailedWriteKeepsTheOldFile) {
-  const ScratchFolder folder;
-  write_text_atomically(folder / "a", "old");
+  const TemporaryFolder folder;
+  write_text_atomically(folder.path() / "a", "old");
   // A folder in the temporary file's place makes the write fail, for root too.
-  std::filesystem::create_directory(temporary_beside(folder / "a"));
-  const Failure failure = failure_of([&] { write_text_atomically(folder / "a", "new"); });
+  std::filesystem::create_directory(temporary_beside(folder.path() / "a"));
+  const Failure failure = failure_of([&] { write_text_atomically(folder.path() / "a", "new"); });
   EXPECT_EQ(failure.code(), ExitCode::input_output);
   EXPECT_THAT(failure.what(), HasSubstr("a.part: cannot open"));
-  EXPECT_EQ(test::raw_bytes(folder / "a"), "old");
+  EXPECT_EQ(test::raw_bytes(folder.path() / "a"), "old");
 }
 
 TEST(Json, RoundTripAndTornFile) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   const nlohmann::json value = {{"a", 0.1}, {"b", {1, 2}}};
-  write_json_atomically(folder / "a.json", value);
-  EXPECT_EQ(read_json(folder / "a.json"), value);
-  test::write_raw(folder / "a.json", "{\"a\": ");
-  const Failure torn = failure_of([&] { read_json(folder / "a.json"); });
+  write_json_atomically(folder.path() / "a.json", value);
+  EXPECT_EQ(read_json(folder.path() / "a.json"), value);
+  test::write_raw(folder.path() / "a.json", "{\"a\": ");
+  const Failure torn = failure_of([&] { read_json(folder.path() / "a.json"); });
   EXPECT_EQ(torn.code(), ExitCode::input_output);
   EXPECT_THAT(torn.what(), HasSubstr("a.json: not whole JSON"));
 }
 
 TEST(ProgressFile, RoundTripWithUnknownNumbers) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_FALSE(read_progress(folder.path()));
   Progress progress;
   progress.step = 12345678901;
@@ -80,12 +79,12 @@ TEST(ProgressFile, RoundTripWithUnknownNumbers) {
   EXPECT_EQ(read->phase, "marching");
   EXPECT_EQ(read->monitored.at("parcels"), 3000);
   EXPECT_TRUE(std::isnan(read->monitored.at("mean_solid_temperature")));
-  test::write_raw(folder / "progress.json", "{\"step\": 1}");
+  test::write_raw(folder.path() / "progress.json", "{\"step\": 1}");
   EXPECT_FALSE(read_progress(folder.path()));
 }
 
 TEST(FailureFile, SaysWhereAndWhatToChange) {
-  const ScratchFolder folder;
+  const TemporaryFolder folder;
   EXPECT_FALSE(read_failure(folder.path()));
   write_failure(folder.path(),
                 Failure(ExitCode::diverged, "parcel 7 left").at("step", "12").advise("dem.time_step", "5e-6"));

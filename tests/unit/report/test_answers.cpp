@@ -40,7 +40,7 @@ TEST(Answers, OfAConvergedRun) {
   EXPECT_EQ(answer(report, cost), "8 min 12 s on 2 ranks");
   EXPECT_THAT(answers(report)[bed].at("detail"), HasSubstr("2 columns hold no zone"));
   EXPECT_THAT(answers(report)[certainty].at("detail"), HasSubstr("heat to 0.1 %"));
-  EXPECT_THAT(answers(report)[cost].at("detail"), HasSubstr("6 h of process time in 1 min 0 s"));
+  EXPECT_THAT(answers(report)[cost].at("detail"), HasSubstr("6 h of process time in 1 min."));
 }
 
 TEST(Answers, OfARunThatHasNotConverged) {

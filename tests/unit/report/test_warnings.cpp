@@ -20,7 +20,7 @@ nlohmann::json quiet_report() {
               {{"scale_check", -0.04},
                {"inlets", {{{"name", "tuyere-left"}, {"mach", 0.2}}}},
                {"energy_residual", 1e-3},
-               {"clamps", {{"void_fraction_floor", 0}}},
+               {"clamps", {{"void_fraction_cells", 0}}},
                {"ledger", {{"mass", {{"in", 1000.}, {"out", {{"unmelted", 0.}}}}}}}}}}}}};
 }
 
@@ -37,8 +37,11 @@ TEST(Warnings, UnmeltedOreOfTheLastEpisodeIsNamedWithItsShare) {
 
 TEST(Warnings, EachLimitIsTold) {
   nlohmann::json report = quiet_report();
-  report["episodes"][0]["tracer"]["clamps"]["void_fraction_floor"] = 7;
-  EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("void fraction floor (7)")));
+  report["episodes"][0]["tracer"]["clamps"]["void_fraction_cells"] = 7;
+  EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("in 7 cells the bed is denser")));
+  report = quiet_report();
+  report["episodes"][0]["tracer"]["clamps"]["hot_gas"] = 3;
+  EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("limit of the model was met: hot gas (3)")));
   report = quiet_report();
   report["episodes"][0]["dem"]["starved_seconds"] = 1.5;
   EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("Starvation: in DEM stage 1")));

@@ -40,7 +40,7 @@ export function duration(seconds) {
   if (seconds < 1) return `${number(seconds, 2)} s`;
   if (seconds < 60) return `${number(seconds, 3)} s`;
   const whole = Math.round(seconds);
-  if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  if (whole < 3600) return `${Math.floor(whole / 60)} min${whole % 60 ? ` ${whole % 60} s` : ""}`;
   const minutes = Math.round(seconds / 60);
   if (whole < 48 * 3600) return `${Math.floor(minutes / 60)} h${minutes % 60 ? ` ${minutes % 60} min` : ""}`;
   return `${number(seconds / 86400, 3)} days`;

@@ -41,7 +41,7 @@ function clampPanel(episodes) {
   const columns = episodes.filter(({ tracer }) => tracer?.clamps).map(({ index, tracer }) => ({ index, values: new Map(flat(tracer.clamps)) }));
   if (!columns.length) return null;
   return element("div", { class: "panel" }, table("Limits of the model, how often they were met", ["", ...columns.map(({ index }) => `episode ${index}`)],
-    rowsOf(columns, []).map(([key, name]) => [name, ...columns.map(({ values }) => count(values.get(key)))])));
+    rowsOf(columns, [["void_fraction_cells", "cells denser than the gas model allows, at the end"]]).map(([key, name]) => [name, ...columns.map(({ values }) => count(values.get(key)))])));
 }
 
 export function ledgerSection({ episodes }) {
