@@ -8,13 +8,14 @@
 namespace cupola {
 namespace {
 
-// The flow may lag behind the bed by twenty times the accuracy: a resistance that has changed by 20 % between two
-// solutions shifts the temperatures of a step by 0.03 % (NUMERICS_NOTES, table of re-solve rules).
-constexpr double lag_over_accuracy = 20;
+// The flow may lag behind the bed by forty times the accuracy: re-solved at a change of the resistance by 40 %, the
+// temperatures of an hour shift by 0.06 % (NUMERICS_NOTES, table of re-solve rules).
+constexpr double lag_over_accuracy = 40;
 constexpr double tight_tolerance = 1e-6;
 constexpr int tight_iterations = 60;
-// A warm solution need not be better than the lag allowed: the next one starts from it. One iteration a step loses 0.02 K.
-constexpr int warm_iterations = 3;
+// A warm solution need not be better than the lag allowed: the next one starts from it. One iteration a step loses 0.02
+// K.
+constexpr int warm_iterations = 2;
 
 }  // namespace
 

@@ -17,3 +17,11 @@ target_compile_definitions(
   workflow_tracer PRIVATE CUPOLA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" CUPOLA_TRACER="$<TARGET_FILE:cupola-tracer>"
                           CUPOLA_MPIEXEC="${MPIEXEC_EXECUTABLE}")
 add_dependencies(workflow_tracer cupola-tracer)
+
+cupola_test(
+  verification_tracer_counter_current
+  LABEL verification
+  SOURCES verification/tracer_counter_current_test.cpp
+  LIBRARIES cupola_settled_bed cupola_schemas)
+target_compile_definitions(verification_tracer_counter_current PRIVATE CUPOLA_TRACER="$<TARGET_FILE:cupola-tracer>")
+add_dependencies(verification_tracer_counter_current cupola-tracer)

@@ -30,8 +30,12 @@ Campaign tiny() {
 Campaign cold() {
   Campaign campaign = tiny();
   campaign.heat.reset();
+  campaign.scene.heat_loss.reset();
   campaign.initial.cohesive_zone.reset();
-  for (Species& species : campaign.species) species.softening.reset();
+  for (Species& species : campaign.species) {
+    species.softening.reset();
+    species.none_below = 0;
+  }
   return campaign;
 }
 
