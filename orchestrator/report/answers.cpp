@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -36,16 +37,21 @@ std::string sentences(const std::vector<std::string>& parts) {
   return text;
 }
 
-/// Figures of an episode against their criteria.
+/// Figures of an episode against their criteria.  Without a contraction factor nothing was extrapolated: the figure is
+/// the last change.
 std::vector<std::string> remaining_changes(const json& episode, const json& criteria) {
   std::vector<std::string> parts;
   if (const auto value = number_at(episode, "/figures/temperature")) {
-    parts.push_back(fmt::format("Temperature still to change by {:.2g} % (wanted below {:.2g} %).", 100 * *value,
-                                100 * criteria.at("temperature").get<double>()));
+    parts.push_back(fmt::format("{} by {:.2g} % (wanted below {:.2g} %).",
+                                number_at(episode, "/lambda/temperature") ? "Temperature still to change"
+                                                                          : "Temperature changed in the last episode",
+                                100 * *value, 100 * criteria.at("temperature").get<double>()));
   }
   if (const auto value = number_at(episode, "/figures/cohesive_zone")) {
-    parts.push_back(fmt::format("Cohesive zone still to move by {:.2g} cells (wanted below {:.2g}).", *value,
-                                criteria.at("cohesive_zone").get<double>()));
+    parts.push_back(fmt::format("{} by {:.2g} cells (wanted below {:.2g}).",
+                                number_at(episode, "/lambda/cohesive_zone") ? "Cohesive zone still to move"
+                                                                            : "Cohesive zone moved in the last episode",
+                                *value, criteria.at("cohesive_zone").get<double>()));
   }
   if (const auto value = number_at(episode, "/figures/granular_velocity")) {
     parts.push_back(fmt::format(
@@ -53,6 +59,19 @@ std::vector<std::string> remaining_changes(const json& episode, const json& crit
         criteria.at("granular_velocity").get<double>()));
   }
   return parts;
+}
+
+/// `temperature, cohesive zone`: the criteria that an episode does not meet.
+std::string unmet_criteria(const json& episode) {
+  std::string names;
+  for (const auto& [rule, change] : episode.at("change").items()) {
+    if (change.is_number() && change.get<double>() >= 1) {
+      std::string name = rule;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  }
+  return names;
 }
 
 json has_it_converged(const json& report) {
@@ -69,12 +88,11 @@ json has_it_converged(const json& report) {
                  "Nothing changes any more, yet too much of the ore leaves the furnace without having melted.");
   }
   if (state == "not converged at its limit") {
-    std::vector<std::string> parts{"It can be resumed with a higher limit."};
-    if (!report.at("episodes").empty()) {
-      const std::vector<std::string> changes = remaining_changes(report.at("episodes").back(), criteria);
-      parts.insert(parts.begin(), changes.begin(), changes.end());
-    }
-    return entry(question, fmt::format("No, not within {} episodes", episodes), sentences(parts));
+    const std::string unmet = report.at("episodes").empty() ? "" : unmet_criteria(report.at("episodes").back());
+    const std::string reason =
+        unmet.empty() ? "The criteria were not met in enough episodes on end." : fmt::format("Not met: {}.", unmet);
+    return entry(question, fmt::format("No, not within {} episodes", episodes),
+                 reason + " It can be resumed with a higher limit.");
   }
   if (state == "failed") {
     return entry(question, "No, it failed", report.at("description").get<std::string>());

@@ -156,7 +156,7 @@ std::pair<std::string, std::string> state_of(const RunRecord& run, const std::ve
     where += fmt::format(", {:.0f} % of its process time", 100 * *done / *total);
   }
   return worked_at ? std::pair{std::string("running"), where}
-                   : std::pair{std::string("stopped"), fmt::format("{}; `cupola resume` goes on", where)};
+                   : std::pair{std::string("stopped"), fmt::format("{}; cupola resume goes on", where)};
 }
 
 /// The limit of episodes in force: that of the last start, which may have been given another one.

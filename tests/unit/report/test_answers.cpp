@@ -47,9 +47,17 @@ TEST(Answers, OfARunThatHasNotConverged) {
   json report = report_of("not converged at its limit");
   report["episodes"][2]["change"]["temperature"] = 3.1;
   EXPECT_EQ(answer(report, converged), "No, not within 3 episodes");
+  EXPECT_EQ(answers(report)[converged].at("detail"), "Not met: temperature. It can be resumed with a higher limit.");
   EXPECT_EQ(answer(report, certainty), "Remaining changes up to 3.1 times what is allowed");
   EXPECT_EQ(answer(report_of("steady, ore not melted"), converged), "Steady, but ore leaves unmelted");
   EXPECT_THAT(answers(report_of("failed"))[converged].at("detail"), HasSubstr("parcel 7 left"));
+}
+
+TEST(Answers, SayWhetherAChangeWasExtrapolated) {
+  json report = report_of("running");
+  EXPECT_THAT(answers(report)[certainty].at("detail"), HasSubstr("Temperature changed in the last episode by 0.4 %"));
+  report["episodes"][2]["lambda"] = {{"temperature", 0.5}};
+  EXPECT_THAT(answers(report)[certainty].at("detail"), HasSubstr("Temperature still to change by 0.4 %"));
 }
 
 TEST(Answers, OfARunThatHasJustBegun) {

@@ -13,7 +13,7 @@ const rows = [
   ["DEM time step", ({ dem }) => dem?.time_step, (value) => `${number(1e6 * value, 3)} µs`],
   ["tracer time step", ({ tracer }) => tracer?.time_step, duration],
   ["gas flow solved, gas energy solved", ({ tracer }) => (tracer?.flow_solves > 0 ? `${count(tracer.flow_solves)}, ${count(tracer.energy_solves)}` : undefined)],
-  ["largest inertia over drag in the gas", ({ tracer }) => tracer?.inertia_over_drag_largest, (value) => percent(value)],
+  ["gas: inertia over drag, largest of all cells", ({ tracer }) => tracer?.inertia_over_drag_largest, (value) => number(value, 2)],
   ["top gas", ({ tracer }) => tracer?.top_gas_temperature, kelvin],
 ];
 

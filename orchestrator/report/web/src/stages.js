@@ -5,13 +5,14 @@ import { element, figure, table } from "./page.js";
 import { axis, seriesRows, timeOption } from "./time_series.js";
 
 function parcelsFigure(report) {
-  const episodes = report.charts.dem_history;
+  // A stage that begins by building the bed has no history of that: its time counts from the first line on.
+  const episodes = report.charts.dem_history.map((episode) => ({ ...episode, time: episode.time.map((time) => time - episode.time[0]) }));
   if (!episodes.some(({ time }) => time.length)) return null;
   const species = report.furnace.species.filter((name) => episodes.some((episode) => episode[`parcels.${name}`]?.length));
   const keys = ["parcels", ...species.map((name) => `parcels.${name}`)];
   return figure({
     name: "parcels", title: "Parcels in the DEM stages", height: 300,
-    note: "All parcels in the furnace and its charging hopper, over the process time of the DEM stages, one after the other.",
+    note: "All parcels in the furnace and its charging hopper, over the process time of the DEM stages, one after the other, without the building of the first bed.",
     options: () => timeOption({
       episodes, divisor: 1, xName: "process time (s)", yName: "parcels", format: count,
       series: keys.map((key, index) => ({ name: key === "parcels" ? "all" : key.slice("parcels.".length), key, colour: index === 0 ? "#1d2433" : lines[index - 1] })),
