@@ -1,7 +1,7 @@
 cupola_test(
   unit_tracer
   LABEL unit
-  SOURCES unit/tracer/charge_test.cpp unit/tracer/heat_test.cpp unit/tracer/melting_zone_test.cpp unit/tracer/tracers_test.cpp
+  SOURCES unit/tracer/charge_test.cpp unit/tracer/granular_field_test.cpp unit/tracer/heat_test.cpp unit/tracer/melting_zone_test.cpp unit/tracer/tracers_test.cpp
   LIBRARIES cupola_tracer_parts cupola_box_mesh)
 
 cupola_library(cupola_settled_bed support/settled_bed.cpp)
