@@ -7,6 +7,7 @@
 
 #include "fvMesh.H"
 #include "lduMatrix.H"
+#include "physics/equations/cell_failure.hpp"
 #include "physics/mesh/foam_errors.hpp"
 #include "schemas/failure.hpp"
 #include "volFields.H"
@@ -130,11 +131,7 @@ struct CellEquation::State {
   [[noreturn]] void not_finite(const std::string& what, const std::vector<double>& values) const {
     std::size_t cell = 0;
     while (cell + 1 < values.size() && std::isfinite(values[cell])) ++cell;
-    const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged,
-                  fmt::format("{} became infinite or undefined, first in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", what,
-                              cell, centre[0], centre[1], centre[2]))
-        .at("cell", std::to_string(cell));
+    throw cell_failure(mesh, what + " became infinite or undefined, first", cell);
   }
 
   FoamCase& foam;

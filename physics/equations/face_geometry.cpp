@@ -93,4 +93,18 @@ std::vector<double> FaceGeometry::outflow(const BedMesh& mesh, const std::vector
   return result;
 }
 
+std::vector<Vector3> FaceGeometry::surface_gradient(const BedMesh& mesh, const std::vector<double>& face_value) {
+  std::vector<Vector3> gradient(mesh.cells(), Vector3{0, 0, 0});
+  for (std::size_t face = 0; face < mesh.faces(); ++face) {
+    const auto owner = mesh.face_owner[face];
+    const auto neighbour = mesh.face_neighbour[face];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double part = face_value[face] * mesh.face_area[face][axis];
+      gradient[owner][axis] += part / mesh.cell_volume[owner];
+      if (face < mesh.internal_faces()) gradient[neighbour][axis] -= part / mesh.cell_volume[neighbour];
+    }
+  }
+  return gradient;
+}
+
 }  // namespace cupola

@@ -24,6 +24,8 @@ struct FaceGeometry {
   [[nodiscard]] std::vector<Vector3> cell_vectors(const BedMesh& mesh, const std::vector<double>& face_flux) const;
   /// Sum of the fluxes out of each cell.
   static std::vector<double> outflow(const BedMesh& mesh, const std::vector<double>& face_flux);
+  /// Gradient of a quantity known at the faces: its surface integral over the cell's volume.
+  static std::vector<Vector3> surface_gradient(const BedMesh& mesh, const std::vector<double>& face_value);
 
  private:
   std::vector<std::array<double, 6>> inverse_;  ///< of sum S S/|S| a cell, 1/m2: xx, xy, xz, yy, yz, zz

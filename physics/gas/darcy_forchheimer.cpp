@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/closures/drag.hpp"
 #include "physics/closures/gas_properties.hpp"
 #include "physics/equations/cell_equation.hpp"
+#include "physics/equations/cell_failure.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/gas/bed_gas.hpp"
+#include "physics/gas/drag_tangent.hpp"
+#include "physics/gas/inertia.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
 namespace {
 
-/// Least resistance of a cell over the mean of the cells that hold solids: see the class comment.
-constexpr double least_relative_resistance = 1e-4;
-/// A cell with less solids than this counts as empty.
-constexpr double empty_solids_fraction = 1e-6;
 /// Mass is conserved to this share of the blast, summed over all cells.
 constexpr double mass_tolerance = 3e-11;
 /// Iterations before the last one conserve it to this share of the last change: what is not yet right need not be
@@ -26,18 +24,15 @@ constexpr double acceptable_mass_residual = 1e-7;
 
 double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
 
-/// Tangent of the drag law in one cell, in terms of psi: -grad psi = (value + slope (|G| - speed)) G.
-struct Resistance {
-  double value = 0;  ///< 1/s
-  double slope = 0;  ///< m2/kg
-  double speed = 0;  ///< |G| where the tangent touches, kg/m2/s
-};
-
 }  // namespace
 
 struct DarcyForchheimer::State {
   State(FoamCase& foam, const BedMesh& bed_mesh, const Campaign& campaign)
-      : mesh(bed_mesh), geometry(bed_mesh), equation(foam, bed_mesh), gas(*campaign.scene.gas), drag(campaign.drag) {
+      : mesh(bed_mesh),
+        geometry(bed_mesh),
+        equation(foam, bed_mesh),
+        gas(*campaign.scene.gas),
+        resistance(bed_mesh, gas, campaign.drag) {
     boundary_flux.assign(mesh.faces(), 0);
     for (const auto& inlet : gas.inlets) {
       const auto* patch = mesh.find_patch(inlet.name);
@@ -71,61 +66,21 @@ struct DarcyForchheimer::State {
     return sum;
   }
 
-  [[noreturn]] void diverged(const std::string& sentence, std::size_t cell) const {
-    const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell,
-                                                  centre[0], centre[1], centre[2]))
-        .at("cell", std::to_string(cell));
-  }
-
   /// Tangents of the drag law at the cells' mass fluxes; at the usual flux everywhere when there is none yet.
   void set_resistances(const BedState& bed, const std::vector<double>& gas_temperature) {
-    const double specific_gas_constant = molar_gas_constant / gas.molar_mass;
-    resistance.resize(mesh.cells());
-    double sum = 0, volume = 0;
-    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-      const double void_fraction = bed.void_fraction[cell];
-      if (!(void_fraction > 0) || void_fraction > 1 + 1e-12) {
-        diverged(fmt::format("a cell without gas: void fraction {}", void_fraction), cell);
-      }
-      if (!(gas_temperature[cell] > 0)) diverged(fmt::format("gas temperature is {} K", gas_temperature[cell]), cell);
-      Resistance& r = resistance[cell];
-      r.speed = cold ? usual_flux : magnitude(mass_flux[cell]);
-      if (void_fraction > 1 - empty_solids_fraction) {
-        r.value = r.slope = 0;
-        continue;
-      }
-      // The laws depend on density x speed only, so a density of 1 turns the speed into the mass flux.
-      const auto law = [&](double flux) {
-        return specific_gas_constant * gas_temperature[cell] *
-               drag_resistance(drag, void_fraction, bed.grain_diameter[cell], gas.viscosity, 1, flux,
-                               bed.polydispersity[cell]);
-      };
-      const double step = 1e-3 * std::max(r.speed, 1e-3 * usual_flux);
-      r.value = law(r.speed);
-      r.slope = cold ? 0 : std::max(0.0, (law(r.speed + step) - r.value) / step);
-      sum += r.value * mesh.cell_volume[cell];
-      volume += mesh.cell_volume[cell];
-    }
-    if (volume == 0)
-      throw Failure(ExitCode::diverged, "no solids left in any cell: the gas has nothing to flow through");
-    least_resistance = least_relative_resistance * sum / volume;
+    std::vector<double> speed(mesh.cells(), usual_flux);
+    for (std::size_t cell = 0; !cold && cell < mesh.cells(); ++cell) speed[cell] = magnitude(mass_flux[cell]);
+    resistance.update(bed, gas_temperature, speed, usual_flux);
   }
 
-  /// Resistance on the cell's side of a face with the normal mass flux `normal_flux`, and its derivative by it times
-  /// it: the normal flux is the face's, the tangential one the cell's (it jumps from layer to layer, the normal one
-  /// does not).
-  [[nodiscard]] std::pair<double, double> at_face(std::int64_t cell, std::size_t face, double normal_flux) const {
-    const Resistance& r = resistance[cell];
-    double speed = r.speed;
-    if (!cold) {
-      const Vector3& g = mass_flux[cell];
-      const double along = dot(g, geometry.normal[face]);
-      speed = std::sqrt(std::max(0.0, dot(g, g) - along * along) + normal_flux * normal_flux);
-    }
-    const double value = std::max({r.value + r.slope * (speed - r.speed), 0.1 * r.value, least_resistance});
-    const double increase = speed > 0 ? r.slope * normal_flux * normal_flux / speed : 0;
-    return {value, increase};
+  /// Resistance on the cell's side of a face: the normal flux is the face's, the tangential one the cell's (it jumps
+  /// from layer to layer, the normal one does not).
+  [[nodiscard]] DragTangents::Value at_face(std::int64_t cell, std::size_t face, double normal_flux) const {
+    if (cold) return resistance.at(cell, usual_flux, 0);
+    const Vector3& g = mass_flux[cell];
+    const double along = dot(g, geometry.normal[face]);
+    const double speed = std::sqrt(std::max(0.0, dot(g, g) - along * along) + normal_flux * normal_flux);
+    return resistance.at(cell, speed, normal_flux);
   }
 
   [[nodiscard]] bool through_flow(std::size_t face) const { return mesh.face_neighbour[face] >= 0 || is_outlet[face]; }
@@ -133,8 +88,7 @@ struct DarcyForchheimer::State {
   /// psi at the face as seen from one of its cells, from the cell's own law.
   [[nodiscard]] double psi_from(std::int64_t cell, const Vector3& offset, double normal_drop) const {
     const Vector3& g = mass_flux[cell];
-    return start.squared_pressure[cell] - std::max(resistance[cell].value, least_resistance) * dot(g, offset) -
-           normal_drop;
+    return start.squared_pressure[cell] - resistance.at_cell(cell) * dot(g, offset) - normal_drop;
   }
 
   /// One Newton step: the linearised law of every face,
@@ -203,7 +157,7 @@ struct DarcyForchheimer::State {
       const double difference = psi[cell] - start.squared_pressure[cell];
       changed_psi += difference * difference * mesh.cell_volume[cell];
       all_psi += psi[cell] * psi[cell] * mesh.cell_volume[cell];
-      if (!(psi[cell] + psi_outlet > 0)) diverged("gas pressure is no longer positive", cell);
+      if (!(psi[cell] + psi_outlet > 0)) throw cell_failure(mesh, "gas pressure is no longer positive", cell);
     }
     start.squared_pressure = std::move(psi);
     start.face_mass_flux = std::move(flux);
@@ -229,68 +183,37 @@ struct DarcyForchheimer::State {
       const double normal_flux = flux / geometry.area[face];
       const auto owner = mesh.face_owner[face];
       const auto neighbour = mesh.face_neighbour[face];
-      const double owner_drop = geometry.owner_distance[face] * at_face(owner, face, normal_flux).first * normal_flux;
+      const double owner_drop = geometry.owner_distance[face] * at_face(owner, face, normal_flux).value * normal_flux;
       double psi = psi_from(owner, geometry.owner_offset[face], owner_drop);
       if (is_outlet[face]) {
         psi = 0;
       } else if (neighbour >= 0) {
         const double drop =
-            geometry.neighbour_distance[face] * at_face(neighbour, face, normal_flux).first * normal_flux;
+            geometry.neighbour_distance[face] * at_face(neighbour, face, normal_flux).value * normal_flux;
         psi = (psi + psi_from(neighbour, geometry.neighbour_offset[face], -drop)) / 2;
       }
       face_pressure[face] = std::sqrt(2 * std::max(0.0, psi + psi_outlet));
     }
-    gradient.assign(mesh.cells(), Vector3{0, 0, 0});
-    for (std::size_t face = 0; face < mesh.faces(); ++face) {
-      const auto owner = mesh.face_owner[face];
-      const auto neighbour = mesh.face_neighbour[face];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double part = face_pressure[face] * mesh.face_area[face][axis];
-        gradient[owner][axis] += part / mesh.cell_volume[owner];
-        if (face < mesh.internal_faces()) gradient[neighbour][axis] -= part / mesh.cell_volume[neighbour];
-      }
-    }
+    gradient = FaceGeometry::surface_gradient(mesh, face_pressure);
   }
 
-  /// |div(G u)| over the drag r |U|, u = G/(density x void fraction) the interstitial velocity, upwind.
   void set_inertia() {
-    std::vector<Vector3> velocity(mesh.cells());
+    std::vector<double> density(mesh.cells()), drag(mesh.cells());
     for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-      const double density_of_bed =
-          gas_density(pressure[cell], temperature[cell], gas.molar_mass) * void_fraction[cell];
-      for (std::size_t axis = 0; axis < 3; ++axis) velocity[cell][axis] = mass_flux[cell][axis] / density_of_bed;
+      density[cell] = gas_density(pressure[cell], temperature[cell], gas.molar_mass);
+      // -grad p = -grad psi/p
+      drag[cell] = resistance.at_cell(static_cast<std::int64_t>(cell)) * magnitude(mass_flux[cell]) / pressure[cell];
     }
-    std::vector<Vector3> force(mesh.cells(), Vector3{0, 0, 0});
-    for (std::size_t face = 0; face < mesh.faces(); ++face) {
-      const auto neighbour = mesh.face_neighbour[face];
-      if (neighbour < 0) continue;
-      const auto owner = mesh.face_owner[face];
-      const double flux = start.face_mass_flux[face];
-      // Only what flows in brings another velocity than the cell's own.
-      const auto into = flux > 0 ? neighbour : owner;
-      const auto from = flux > 0 ? owner : neighbour;
-      if (into == neighbour && face >= mesh.internal_faces()) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        force[into][axis] += std::abs(flux) * (velocity[into][axis] - velocity[from][axis]) / mesh.cell_volume[into];
-      }
-    }
-    inertia.assign(mesh.cells(), 0);
-    inertia_largest = 0;
-    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-      const double flux = magnitude(mass_flux[cell]);
-      if (void_fraction[cell] > 1 - empty_solids_fraction || flux < 0.01 * usual_flux) continue;
-      // r U = (r R T/M G)/p
-      const double drag_force = resistance[cell].value * flux / pressure[cell];
-      inertia[cell] = magnitude(force[cell]) / (void_fraction[cell] * drag_force);
-      inertia_largest = std::max(inertia_largest, inertia[cell]);
-    }
+    inertia = cupola::inertia_over_drag(mesh, {start.face_mass_flux, mass_flux, density, void_fraction, drag},
+                                        0.01 * usual_flux);
+    inertia_largest = *std::max_element(inertia.begin(), inertia.end());
   }
 
   const BedMesh& mesh;
   FaceGeometry geometry;
   CellEquation equation;
   Gas gas;
-  DragLaw drag;
+  DragTangents resistance;
 
   std::vector<double> boundary_flux;  ///< kg/s out of the owner, inlets; 0 elsewhere
   std::vector<bool> is_outlet;
@@ -301,8 +224,6 @@ struct DarcyForchheimer::State {
   bool cold = true;  ///< no mass fluxes known yet
   WarmStart start;
   std::vector<Vector3> mass_flux;
-  std::vector<Resistance> resistance;
-  double least_resistance = 0;
   std::vector<double> void_fraction, temperature;
 
   std::vector<double> pressure, face_pressure, inertia;

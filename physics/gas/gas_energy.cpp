@@ -7,6 +7,7 @@
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/syamlal_gidaspow.hpp"
 #include "physics/equations/cell_equation.hpp"
+#include "physics/equations/cell_failure.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/gas/bed_gas.hpp"
 #include "schemas/failure.hpp"
@@ -46,13 +47,6 @@ struct GasEnergy::State {
     temperature.assign(mesh.cells(), flow > 0 ? enthalpy / flow : reference_temperature);
   }
 
-  void diverged(const std::string& sentence, std::size_t cell) const {
-    const Vector3& centre = mesh.cell_centre[cell];
-    throw Failure(ExitCode::diverged, fmt::format("{} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m", sentence, cell,
-                                                  centre[0], centre[1], centre[2]))
-        .at("cell", std::to_string(cell));
-  }
-
   const BedMesh& mesh;
   FaceGeometry geometry;
   CellEquation equation;
@@ -78,7 +72,7 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
   std::vector<double> conductivity(mesh.cells());
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     if (!(bed.void_fraction[cell] > 0)) {
-      state.diverged(fmt::format("a cell without gas: void fraction {}", bed.void_fraction[cell]), cell);
+      throw cell_failure(mesh, fmt::format("a cell without gas: void fraction {}", bed.void_fraction[cell]), cell);
     }
     conductivity[cell] = gas_conductivity_syamlal_gidaspow(std::min(1.0, bed.void_fraction[cell]), state.conductivity);
   }
@@ -127,7 +121,7 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
   }
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     if (!(coefficients.diagonal[cell] > 0))
-      state.diverged("no gas, conduction or solids reach a cell: its temperature is open", cell);
+      throw cell_failure(mesh, "no gas, conduction or solids reach a cell: its temperature is open", cell);
   }
 
   auto& temperature = state.temperature;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "physics/closures/drag_beetstra.hpp"
-#include "schemas/failure.hpp"
+#include "physics/equations/cell_failure.hpp"
 
 namespace cupola {
 namespace {
@@ -50,11 +50,7 @@ BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
     for (std::size_t species = 0; species < campaign.species.size(); ++species) {
       const double volume = species_volume[species][cell];
       if (!(volume >= 0) || !std::isfinite(volume)) {
-        const Vector3& centre = mesh.cell_centre[cell];
-        throw Failure(ExitCode::diverged,
-                      fmt::format("volume of {} in cell {} at ({:.3f}, {:.3f}, {:.3f}) m is {} m3",
-                                  campaign.species[species].name, cell, centre[0], centre[1], centre[2], volume))
-            .at("cell", std::to_string(cell));
+        throw cell_failure(mesh, fmt::format("volume of {} is {} m3", campaign.species[species].name, volume), cell);
       }
       const double diameter = campaign.species[species].diameter;
       grains.volume += volume;

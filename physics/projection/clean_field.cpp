@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/equations/cell_equation.hpp"
+#include "physics/equations/cell_failure.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/mesh/cell_locator.hpp"
 #include "schemas/failure.hpp"
@@ -40,8 +41,7 @@ class Cleaning {
       if (!raw.bed[cell]) flux[cell] = {0, 0, 0};
       for (const double part : flux[cell]) {
         if (!std::isfinite(part)) {
-          throw Failure(ExitCode::diverged, fmt::format("granular flux is not a number in cell {}", cell))
-              .at("cell", std::to_string(cell));
+          throw cell_failure(mesh, "granular flux is not a number", cell);
         }
       }
     }
