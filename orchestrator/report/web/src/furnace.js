@@ -80,7 +80,7 @@ export function zoneFigure(report) {
     options: (drawing) => {
       const rowsOfLegend = Math.ceil((outlines.length * 150) / Math.max(drawing.clientWidth, 150));
       const legend = 22 * rowsOfLegend + 6;
-      const frame = scaled(drawing, furnace, 560);
+      const frame = scaled(drawing, furnace, drawing.clientWidth > 450 ? 660 : 560);
       drawing.style.height = `${parseFloat(drawing.style.height) + legend}px`;
       frame.grid.top += legend;
       return {
