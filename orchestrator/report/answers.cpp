@@ -137,6 +137,12 @@ json how_does_the_bed_move(const json& report) {
                "A cold scene: no temperatures are computed.");
 }
 
+/// How well a ledger closes.
+std::string closure(double residual) {
+  constexpr double round_off = 1e-9;
+  return residual < round_off ? "round-off" : fmt::format("{:.2g} %", 100 * residual);
+}
+
 json how_sure(const json& report) {
   const std::string question = "How sure is that?";
   std::vector<std::string> parts;
@@ -154,12 +160,11 @@ json how_sure(const json& report) {
                        : fmt::format("Remaining changes up to {:.2g} times what is allowed", worst);
     parts = remaining_changes(*episode, report.at("criteria"));
   }
-  if (const auto residual = number_at(report, "/ledger/mass_residual")) {
-    parts.push_back(
-        fmt::format("Mass closes to {:.1e} of the charge", *residual) +
-        (number_at(report, "/ledger/energy_residual")
-             ? fmt::format(", heat to {:.2g} % of the blast's.", 100 * *number_at(report, "/ledger/energy_residual"))
-             : "."));
+  if (const auto mass = number_at(report, "/ledger/mass_residual")) {
+    const auto heat = number_at(report, "/ledger/energy_residual");
+    parts.push_back(heat ? fmt::format("Mass closes to {} of the charge, heat to {} of the blast's.", closure(*mass),
+                                       closure(*heat))
+                         : fmt::format("Mass closes to {} of the charge.", closure(*mass)));
   }
   if (parts.empty()) {
     parts.emplace_back("A change can be judged from the second episode on.");

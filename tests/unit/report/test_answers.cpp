@@ -39,7 +39,8 @@ TEST(Answers, OfAConvergedRun) {
   EXPECT_EQ(answer(report, certainty), "Remaining changes at most 70 % of what is allowed");
   EXPECT_EQ(answer(report, cost), "8 min 12 s on 2 ranks");
   EXPECT_THAT(answers(report)[bed].at("detail"), HasSubstr("2 columns hold no zone"));
-  EXPECT_THAT(answers(report)[certainty].at("detail"), HasSubstr("heat to 0.1 %"));
+  EXPECT_THAT(answers(report)[certainty].at("detail"),
+              HasSubstr("Mass closes to round-off of the charge, heat to 0.1 % of the blast's"));
   EXPECT_THAT(answers(report)[cost].at("detail"), HasSubstr("6 h of process time in 1 min."));
 }
 

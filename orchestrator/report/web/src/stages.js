@@ -34,7 +34,8 @@ function wallTimes(report) {
 function wallTimeFigure(report) {
   const stages = wallTimes(report);
   if (!stages.length) return null;
-  const parts = [...new Set(stages.flatMap((stage) => Object.keys(stage.parts)))].sort((a, b) => (a === "other") - (b === "other"));
+  const total = (part) => stages.reduce((sum, stage) => sum + (stage.parts[part] ?? 0), 0);
+  const parts = [...new Set(stages.flatMap((stage) => Object.keys(stage.parts)))].sort((a, b) => (a === "other") - (b === "other") || total(b) - total(a));
   return figure({
     name: "wall_time", title: "Wall time by stage and part", height: 100 + 26 * stages.length,
     note: `${duration(report.wall_seconds)} in all.`,
