@@ -37,8 +37,8 @@ ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& sign
   const AfterStage renew_report = [&] {
     try {
       make_report(folder.path());
-    } catch (const Failure& failure) {
-      view.say(fmt::format("no report: {}", failure.what()));
+    } catch (const std::exception& problem) {
+      view.say(fmt::format("no report: {}", problem.what()));
     }
   };
   try {
