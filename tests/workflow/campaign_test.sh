@@ -40,10 +40,25 @@ wait_for() {
   done
 }
 
-# in_stage EPISODE STAGE: its program has made at least one step.
+# begin: goes on with the disturbed run in the background.
+begin() {
+  touch "$work/begun"
+  "$cupola" resume "$run" >> "$work/out" 2>&1 &
+  orchestrator=$!
+}
+
+# in_stage EPISODE STAGE: its program has made a step since `begin`.
 in_stage() {
   local progress=$run/episodes/$1/$2/attempt-1/progress.json
-  [[ -f $progress && $(field "$progress" step) -gt 0 ]]
+  [[ -f $progress && $progress -nt $work/begun && $(field "$progress" step) -gt 0 ]]
+}
+
+# events WHAT...: how many lines of the journal hold all of these.
+events() {
+  local lines
+  lines=$(cat "$run/journal.jsonl")
+  for what in "$@"; do lines=$(grep -- "$what" <<< "$lines"); done
+  grep -c . <<< "$lines"
 }
 
 echo "-- left alone"
@@ -52,6 +67,7 @@ expected=$(status_of "$cupola" run "$work/campaign.yaml" --run-dir "$work/alone"
 [[ $(status_of "$cupola" status "$work/alone") == 0 ]] || fail "status of a finished run"
 
 echo "-- SIGKILL of the orchestrator inside the first DEM stage; the stage runs on and is found"
+touch "$work/begun"
 "$cupola" run "$work/campaign.yaml" --run-dir "$run" >> "$work/out" 2>&1 &
 orchestrator=$!
 wait_for 120 in_stage 001 dem || fail "the first DEM stage does not begin"
@@ -60,8 +76,8 @@ kill -KILL "$orchestrator"
 wait "$orchestrator" 2> /dev/null
 kill -0 "$(stage_process)" || fail "the stage died with its orchestrator"
 [[ $(status_of "$cupola" resume "$run" --until-episode 1) == 75 ]] || fail "resume beside an orphan"
-grep -q '"event":"orphan-found"' "$run/journal.jsonl" || fail "the orphan was not found"
-[[ $(grep -c '"event":"stage-started".*"stage":"dem"' "$run/journal.jsonl") == 1 ]] || fail "a second DEM stage was started beside the orphan"
+[[ $(events orphan-found) -ge 1 ]] || fail "the orphan was not found"
+[[ $(events stage-started '"stage":"dem"') == 1 ]] || fail "a second DEM stage was started beside the orphan"
 
 echo "-- a line of the journal changed, then put back"
 cp "$run/journal.jsonl" "$work/journal.jsonl"
@@ -76,14 +92,13 @@ truncate -s -100 "$result"
 [[ $(status_of "$cupola" resume "$run") == 74 ]] || fail "a truncated result was accepted"
 cp "$work/result.hdf" "$result"
 
-echo "-- SIGTERM inside the second DEM stage, Ctrl-C twice after that"
+echo "-- SIGTERM inside the second DEM stage, then Ctrl-C twice"
 for signals in TERM "INT INT"; do
-  "$cupola" resume "$run" >> "$work/out" 2>&1 &
-  orchestrator=$!
+  begin
   wait_for 120 in_stage 002 dem || fail "the second DEM stage does not begin"
   for signal in $signals; do
     kill "-$signal" "$orchestrator"
-    sleep 0.2
+    sleep 0.1
   done
   wait "$orchestrator"
   status=$?
@@ -91,21 +106,23 @@ for signals in TERM "INT INT"; do
 done
 
 echo "-- SIGKILL of mpirun, of its ranks and of the orchestrator inside the second DEM stage"
-"$cupola" resume "$run" >> "$work/out" 2>&1 &
-orchestrator=$!
+begin
 wait_for 120 in_stage 002 dem || fail "the second DEM stage does not go on"
-sleep 0.5
 mpirun=$(stage_process)
 kill -KILL "$orchestrator" "$mpirun" $(pgrep -P "$mpirun") 2> /dev/null
 wait "$orchestrator" 2> /dev/null
 
-echo "-- SIGUSR1 to the second tracer stage itself"
-"$cupola" resume "$run" >> "$work/out" 2>&1 &
-orchestrator=$!
+echo "-- SIGKILL of one rank of the second tracer stage: the orchestrator starts it again; then SIGUSR1 to the stage itself"
+begin
 wait_for 240 in_stage 002 tracer || fail "the second tracer stage does not begin"
+kill -KILL "$(pgrep -P "$(stage_process)" | head -n 1)"
+wait_for 60 grep -q stage-died "$run/journal.jsonl" || fail "the death of a rank was not seen"
+touch "$work/begun"
+wait_for 120 in_stage 002 tracer || fail "the second tracer stage was not started again"
 kill -USR1 "$(stage_process)"
 wait "$orchestrator"
-[[ $? == 75 || -f $run/episodes/002/tracer/attempt-1/manifest.json ]] || fail "SIGUSR1 to a stage"
+status=$?
+[[ $status == 75 ]] || fail "SIGUSR1 to a stage: left with $status"
 
 echo "-- to the end"
 status=$(status_of "$cupola" resume "$run")
