@@ -31,7 +31,8 @@ struct Bounds {
 Bounds bounds_of(const std::string& name) {
   constexpr double beyond_any_furnace = 1e4;  // K
   constexpr double round_off = 1e-9;
-  // A parcel's volume is counted where its division points lie: a cell smaller than a parcel may get more than it holds.
+  // A parcel's volume is counted where its division points lie: a cell smaller than a parcel may get more than it
+  // holds.
   constexpr double beyond_any_packing = 2;
   if (name.find("temperature") != std::string::npos) return {0., beyond_any_furnace};
   if (name.ends_with("_error")) return {-HUGE_VAL, HUGE_VAL};

@@ -36,8 +36,8 @@ struct HdfWriter::State {
     // Without time stamps, so that the same content has the same hash whenever it is written.
     const hdf::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_obj_track_times(creation.get(), false);
-    const hdf::Handle set(
-        H5Dcreate2(file(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT), H5Dclose);
+    const hdf::Handle set(H5Dcreate2(file(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+                          H5Dclose);
     if (!set || H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
       fail("dataset '" + name + "'");
     }

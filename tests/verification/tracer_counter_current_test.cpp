@@ -101,7 +101,8 @@ TEST(TracerCounterCurrent, MarchedProfileIsTheExactExponential) {
   const double solids_flow = campaign.descent_rate * packing * pebble.density * pebble.heat_capacity;
   const double exact = exchange * (1 / solids_flow - 1 / gas_flow);
   EXPECT_NEAR(slope, exact, 0.04 * exact);
-  // The gas is upwind on cells of height dz, the tracers are not: of the difference to the exact slope this much is known,
+  // The gas is upwind on cells of height dz, the tracers are not: of the difference to the exact slope this much is
+  // known,
   //   D(i) - D(i-1) = -ha dz/Cg D(i) + ha dz/Cs (D(i) + D(i-1))/2.
   const double dz = 0.025;
   const double in_gas = exchange * dz / gas_flow;
