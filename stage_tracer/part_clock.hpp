@@ -2,6 +2,7 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <utility>
 
 namespace cupola {
 
@@ -29,6 +30,8 @@ class PartClock {
 
   [[nodiscard]] Running measure(const std::string& part) { return {*this, part}; }
   [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
+  /// Goes on from what an earlier start of the task has spent.
+  void restore(std::map<std::string, double> seconds) { seconds_ = std::move(seconds); }
 
  private:
   std::map<std::string, double> seconds_;

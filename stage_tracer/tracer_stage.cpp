@@ -273,6 +273,7 @@ void TracerStage::resume(const std::filesystem::path& checkpoint) {
   require_mesh(file, read_header(file, "checkpoint"), mesh_.hash);
   step_ = static_cast<long>(file.integers("March/step", 1)[0]);
   wall_before_ = file.doubles("March/wall_seconds", 1)[0];
+  clock_.restore(nlohmann::json::parse(file.text("March/wall_seconds_by_part")).get<std::map<std::string, double>>());
   cells_at_floor_ = file.integers("March/cells_at_floor", 1)[0];
   ledger_ = Ledger::from_row(file.doubles("March/ledger"));
   averages_.restore(file.doubles("March/averages"));
@@ -294,6 +295,7 @@ void TracerStage::write_checkpoint() {
     write_header(file, {"checkpoint", task_.campaign_hash, mesh_.hash});
     file.write("March/step", std::vector<std::int64_t>{step_});
     file.write("March/wall_seconds", std::vector<double>{wall_seconds()});
+    file.write_text("March/wall_seconds_by_part", nlohmann::json(clock_.seconds()).dump());
     file.write("March/cells_at_floor", std::vector<std::int64_t>{cells_at_floor_});
     file.write("March/ledger", ledger_.row());
     file.write("March/averages", averages_.row());

@@ -198,6 +198,20 @@ TEST(TracerStage, ColdSceneHasNoTemperatures) {
   EXPECT_EQ(result.summary()["energy_solves"].get<long>(), 0);
 }
 
+TEST(TracerStage, RandomDisplacementAndRawFieldKeepTheBalances) {
+  for (const bool displaced : {true, false}) {
+    Campaign campaign = tiny();
+    campaign.tracer.clean_field = displaced;
+    if (displaced) campaign.tracer.displacement = TracerSettings::Displacement::random;
+    const TracerTask task(campaign);
+    ASSERT_EQ(task.run(), 0);
+    const nlohmann::json ledger = task.result().summary()["ledger"];
+    EXPECT_LT(ledger["mass"]["residual"].get<double>(), 1e-12);
+    EXPECT_LT(ledger["energy"]["residual"].get<double>(), 1e-6);
+    EXPECT_EQ(ledger["mass"]["out"]["lost"].get<double>(), 0);
+  }
+}
+
 TEST(TracerStage, RefusesAGranularFieldOfAnotherMesh) {
   Campaign coarse = tiny();
   coarse.scene.mesh.cell = 0.2;
