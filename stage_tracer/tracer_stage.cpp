@@ -324,7 +324,8 @@ void TracerStage::write_output(bool checkpoint_now) {
   const long interval =
       std::max(1L, steps_.count / most_history_lines + (steps_.count % most_history_lines != 0 ? 1 : 0));
   if (step_ % interval == 0 || last) append_history(folder_, history_line());
-  if (wall - last_progress_ < seconds_between_progress && !last && !checkpoint_now) return;
+  const bool first = last_progress_ == 0;
+  if (wall - last_progress_ < seconds_between_progress && !first && !last && !checkpoint_now) return;
   Progress progress;
   progress.step = step_;
   progress.process_seconds = time(static_cast<double>(step_));
