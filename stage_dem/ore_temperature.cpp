@@ -1,8 +1,8 @@
 #include "stage_dem/ore_temperature.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "physics/closures/guessed_zone.hpp"
 #include "schemas/field_file.hpp"
 
 namespace cupola {
@@ -30,8 +30,7 @@ double OreTemperature::at(const Vector3& position, std::int64_t cell) const {
 }
 
 double OreTemperature::guess(const Vector3& position) const {
-  if (!zone_) return charge_;
-  return position[2] < zone_->tip - zone_->slope * std::abs(position[0]) ? zone_->below : zone_->above;
+  return zone_ ? guessed_temperature(*zone_, position) : charge_;
 }
 
 }  // namespace cupola
