@@ -63,6 +63,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
 
 ExitCode DemStage::run() {
   begin();
+  report_progress(true);
   while (state_.phase != DemPhase::done) {
     begin_block();
     advance_block();
