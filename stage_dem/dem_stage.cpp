@@ -78,7 +78,7 @@ ExitCode DemStage::run() {
     DemFiles(*this).write_checkpoint_when_due();
   }
   begin_block();  // the last packing on the mesh, its sample and the gas through it
-  if (gas_) gas_->update(solids_, true);
+  if (gas_) gas_->update(solids_, 0, true);
   report_progress(true);
   DemFiles(*this).write_result();
   return ExitCode::done;
@@ -124,7 +124,7 @@ void DemStage::begin_block() {
   if (!gas_ || state_.phase == DemPhase::done) return;
   {
     const PartTimer timer(state_.wall_parts, "gas");
-    gas_->update(solids_);
+    gas_->update(solids_, state_.last_block);
   }
   const PartTimer timer(state_.wall_parts, "projection");
   engine_->set_forces(gas_->forces(solids_, owned, communicator_));

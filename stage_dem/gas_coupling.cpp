@@ -10,10 +10,12 @@
 namespace cupola {
 namespace {
 
-constexpr double void_change_allowed = 0.05;
+constexpr double void_change_allowed = 0.15;
+constexpr double longest_between = 0.25;  // s
 /// Relative change of the fluxes at which an iteration of the flow ends: the force needs no more.
 constexpr double force_tolerance = 1e-2;
-constexpr std::int64_t most_blocks_between = 10;
+/// Times are sums of blocks: less than this apart they are the same, s.
+constexpr double same_time = 1e-9;
 /// Interstitial speed below which the gas counts as at rest in the damping, m/s.
 constexpr double least_speed = 0.01;
 
@@ -38,17 +40,17 @@ GasCoupling::GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& ca
                          std::vector<double> gas_temperature)
     : mesh_(mesh), campaign_(campaign), flow_(foam, mesh, campaign), temperature_(std::move(gas_temperature)) {}
 
-void GasCoupling::update(const SolidsOnMesh& solids, bool in_any_case) {
+void GasCoupling::update(const SolidsOnMesh& solids, double seconds, bool in_any_case) {
   const BedState bed = bed_state(mesh_, campaign_, solids.species_volume());
   cells_at_floor_ = bed.cells_at_floor;
-  ++blocks_since_;
+  seconds_since_ += seconds;
   const bool first = void_solved_.empty();
-  if (!first && !in_any_case && blocks_since_ < most_blocks_between &&
+  if (!first && !in_any_case && seconds_since_ < longest_between - same_time &&
       change_of_void(bed.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
     return;
   flow_.solve(bed, temperature_, first ? 1e-4 : force_tolerance, first ? 100 : 10);
   void_solved_ = bed.void_fraction;
-  blocks_since_ = 0;
+  seconds_since_ = 0;
   ++solves_;
   pressure_ = flow_.pressure();
   const std::size_t cells = mesh_.cells();
@@ -125,8 +127,8 @@ void GasCoupling::save(HdfWriter& file) const {
   file.write("Gas/mass_flux", mass_flux_);
   file.write("Gas/squared_pressure", flow_.warm_start().squared_pressure);
   file.write("Gas/face_mass_flux", flow_.warm_start().face_mass_flux);
-  file.write("Gas/counters", std::vector<std::int64_t>{blocks_since_, solves_, cells_at_floor_});
-  file.write("Gas/momentum_residual", std::vector<double>{momentum_residual_});
+  file.write("Gas/counters", std::vector<std::int64_t>{solves_, cells_at_floor_});
+  file.write("Gas/numbers", std::vector<double>{momentum_residual_, seconds_since_});
 }
 
 void GasCoupling::load(const HdfReader& file) {
@@ -137,11 +139,12 @@ void GasCoupling::load(const HdfReader& file) {
   speed_ = file.doubles("Gas/speed");
   mass_flux_ = file.doubles("Gas/mass_flux");
   flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
-  const auto counters = file.integers("Gas/counters", 3);
-  blocks_since_ = counters[0];
-  solves_ = counters[1];
-  cells_at_floor_ = counters[2];
-  momentum_residual_ = file.doubles("Gas/momentum_residual", 1)[0];
+  const auto counters = file.integers("Gas/counters", 2);
+  solves_ = counters[0];
+  cells_at_floor_ = counters[1];
+  const auto numbers = file.doubles("Gas/numbers", 2);
+  momentum_residual_ = numbers[0];
+  seconds_since_ = numbers[1];
 }
 
 }  // namespace cupola

@@ -19,11 +19,11 @@ class GasCoupling {
  public:
   GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, std::vector<double> gas_temperature);
 
-  /// Solves the flow where the bed has changed: the void fraction, rms over cells with solids, by more than 0.05 since
-  /// the last solution, or ten blocks have gone by.  The criterion sees the state alone, so that a resumed run decides
-  /// the same.
-  /// @param in_any_case solve even where nothing has changed
-  void update(const SolidsOnMesh& solids, bool in_any_case = false);
+  /// Solves the flow again where 0.25 s have gone by since the last solution, in which a bed drawn down fast sinks by a
+  /// fraction of a parcel, or where the void fraction has changed by more than 0.15, rms over cells with solids.  The
+  /// criterion sees the state alone, so that a resumed run decides the same.
+  /// @param seconds of the block just done  @param in_any_case solve even where nothing has changed
+  void update(const SolidsOnMesh& solids, double seconds, bool in_any_case = false);
 
   /// Forces on the parcels last divided, in their order.
   [[nodiscard]] std::vector<ParcelForce> forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
@@ -50,7 +50,7 @@ class GasCoupling {
   std::vector<double> gradient_;     ///< Pa/m, cells x 3
   std::vector<double> speed_;        ///< m/s, |interstitial velocity|
   std::vector<double> mass_flux_;    ///< kg/m2/s, cells x 3
-  std::int64_t blocks_since_ = 0;
+  double seconds_since_ = 0;         ///< s of process time since the last solution
   std::int64_t solves_ = 0;
   std::int64_t cells_at_floor_ = 0;
   double momentum_residual_ = 0;
