@@ -46,7 +46,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       rank_(foam.rank()),
       ranks_(foam.ranks()),
       started_(Clock::now()),
-      last_progress_(started_),
+      last_progress_(started_ - std::chrono::hours(1)),
       last_checkpoint_(started_),
       step_(dem_time_step(task.campaign)),
       temperature_(task, folder, mesh),
