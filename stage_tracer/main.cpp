@@ -10,6 +10,7 @@
 #include "physics/stage/stop_request.hpp"
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
+#include "schemas/version.hpp"
 #include "stage_tracer/tracer_stage.hpp"
 
 namespace {
@@ -51,6 +52,7 @@ int march(const std::filesystem::path& folder, int& argc, char**& argv) {
 int main(int argc, char** argv) {
   CLI::App app{"Tracer stage of Cupola: heat and motion of the bed over hours of process time"};
   std::filesystem::path folder;
+  app.set_version_flag("--version", std::string("cupola-tracer ") + program_version);
   CLI::App* preparing = app.add_subcommand("prepare", "make mesh and OpenFOAM case of a task folder");
   preparing->add_option("TASK", folder, "task folder")->required();
   app.add_option("TASK", folder, "task folder");
