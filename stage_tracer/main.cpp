@@ -52,7 +52,7 @@ int march(const std::filesystem::path& folder, int& argc, char**& argv) {
 int main(int argc, char** argv) {
   CLI::App app{"Tracer stage of Cupola: heat and motion of the bed over hours of process time"};
   std::filesystem::path folder;
-  app.set_version_flag("--version", std::string("cupola-tracer ") + program_version);
+  app.set_version_flag("--version", std::string("cupola-tracer ") + cupola::program_version);
   CLI::App* preparing = app.add_subcommand("prepare", "make mesh and OpenFOAM case of a task folder");
   preparing->add_option("TASK", folder, "task folder")->required();
   app.add_option("TASK", folder, "task folder");
