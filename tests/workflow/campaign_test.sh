@@ -8,7 +8,9 @@ work=$3
 ranks=$4
 rm -rf "$work"
 mkdir -p "$work"
-sed "s/^launch:.*/launch: {ranks: $ranks}/" "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"
+# Stages long enough to be caught at work.
+sed -e "s/^launch:.*/launch: {ranks: $ranks}/" -e 's/^dem:.*/dem: {relaxation: 0.4 s, window: 1.6 s, stop: {at_most: 2 s}}/' \
+  -e 's/^tracer:.*/tracer: {duration: 1 h, accuracy: 5 %}/' "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"
 run=$work/disturbed
 
 fail() {
@@ -24,9 +26,6 @@ status_of() {
   echo $?
 }
 
-# field JSON-FILE KEY: a number or text at the first level of a JSON object on one line or several.
-field() { node -e 'const [f, k] = process.argv.slice(1); console.log(JSON.parse(require("fs").readFileSync(f))[k] ?? "")' "$1" "$2"; }
-
 # The process of mpirun of the stage that was started last.
 stage_process() { grep '"event":"stage-started"' "$run/journal.jsonl" | tail -n 1 | sed 's/.*"pid":\([0-9]*\).*/\1/'; }
 
@@ -36,7 +35,7 @@ wait_for() {
   shift
   until "$@" > /dev/null 2>&1; do
     [[ $SECONDS -lt $until ]] || return 1
-    sleep 0.1
+    sleep 0.03
   done
 }
 
@@ -47,10 +46,10 @@ begin() {
   orchestrator=$!
 }
 
-# in_stage EPISODE STAGE: its program has made a step since `begin`.
+# in_stage EPISODE STAGE: its program has written to its history since `begin`.
 in_stage() {
-  local progress=$run/episodes/$1/$2/attempt-1/progress.json
-  [[ -f $progress && $progress -nt $work/begun && $(field "$progress" step) -gt 0 ]]
+  local history=$run/episodes/$1/$2/attempt-1/history.jsonl
+  [[ -s $history && $history -nt $work/begun ]]
 }
 
 # events WHAT...: how many lines of the journal hold all of these.
