@@ -114,7 +114,8 @@ json retries_of(const RunRecord& run) {
   for (const json& record : run.journal) {
     if (record.value("event", "") == "advice-taken") {
       std::string changes;
-      for (const auto& [key, value] : record.value("changes", json::object()).items()) {
+      const json changed_keys = record.value("changes", json::object());
+      for (const auto& [key, value] : changed_keys.items()) {
         changes += fmt::format("{}{} = {}", changes.empty() ? " with " : ", ", key,
                                value.is_string() ? value.get<std::string>() : value.dump());
       }

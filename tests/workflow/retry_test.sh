@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# A DEM stage that diverges, once and for good: the retry with the advice, the report of it, the end with 70.
+# The real programs run; the divergence itself is put in front of cupola-dem.
+#   retry_test.sh CUPOLA SOURCE_DIR WORK_DIR
+set -uo pipefail
+programs=$(dirname "$1")
+source=$2
+work=$3
+rm -rf "$work"
+mkdir -p "$work/bin"
+run=$work/run
+
+fail() {
+  echo "FAILED: $*"
+  cat "$work/out"
+  exit 1
+}
+
+# diverges_in PATTERN: cupola-dem says 70 in the task folders that fit.
+diverges_in() {
+  cat > "$work/bin/cupola-dem" << END
+#!/bin/sh
+case "\$*" in
+prepare*) ;;
+$1)
+  echo '{"code": 70, "sentence": "overlap too large", "where": {"step": "12"}, "advice": {"dem.time_step": "1e-4"}}' > "\$1/failure.json"
+  exit 70 ;;
+esac
+exec $programs/cupola-dem "\$@"
+END
+  chmod +x "$work/bin/cupola-dem"
+}
+
+# The programs are found beside cupola itself.
+cp "$programs/cupola" "$work/bin/"
+ln -s "$programs/cupola-tracer" "$work/bin/cupola-tracer"
+sed 's/^launch:.*/launch: {ranks: 1}/' "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"
+
+diverges_in '*001/dem/attempt-[12]'
+"$work/bin/cupola" run "$work/campaign.yaml" --run-dir "$run" > "$work/out" 2>&1
+[[ $? == 70 ]] || fail "a stage that diverges twice must end with 70"
+grep -q 'try dem.time_step: 1e-4' "$work/out" || fail "the advice is not said"
+grep -q 'time_step: 0.0001' "$run/episodes/001/dem/attempt-2/task.yaml" || fail "the advice was not taken"
+grep -q '"state": "failed"' <("$work/bin/cupola" status "$run" --json) || fail "status does not say so"
+[[ -f $run/report/index.html ]] || fail "no report of the failure"
+
+diverges_in '*001/dem/attempt-3'
+"$work/bin/cupola" resume "$run" --until-episode 1 > "$work/out" 2>&1
+[[ $? == 70 ]] || fail "one attempt more at each resume"
+
+diverges_in 'never'
+"$work/bin/cupola" resume "$run" --until-episode 1 > "$work/out" 2>&1
+[[ $? == 75 ]] || fail "the attempt after it works must go on"
+grep -q 'tried again with dem.time_step = 1e-4' "$run/report/report.json" || fail "the report does not mention the retry"
+grep -q 'time_step: 0.0001' "$run/episodes/001/dem/attempt-4/task.yaml" || fail "the change was not kept"
+echo "retries, refusals and the report of them are as promised"
