@@ -35,7 +35,7 @@ bench: build
 	@tools/run_benchmarks.sh $(BUILD)
 
 # The address and undefined-behaviour sanitizers, in a tree of their own, on the programs of unit tests that need no solver.
-SANITIZED := test_closures unit_motion
+SANITIZED := test_closures
 sanitize: setup
 	@echo "== sanitizers"
 	@[ -f build-sanitize/build.ninja ] || cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
@@ -44,7 +44,7 @@ sanitize: setup
 	for program in $(SANITIZED); do UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 build-sanitize/bin/$$program --gtest_brief=1 || exit 1; done
 
 tidy: build
-	@tools/tidy.sh $(BUILD) schemas physics/closures physics/plan physics/motion orchestrator
+	@tools/tidy.sh $(BUILD) physics/closures physics/motion
 
 tidy-all: build
 	@tools/tidy.sh $(BUILD) schemas physics stage_dem stage_tracer orchestrator
