@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage_dem/parcels.hpp"
+
 namespace cupola {
 
 double bed_surface(const Campaign& campaign, const std::vector<Parcel>& parcels) {
-  double diameter = 0;
-  for (const auto& species : campaign.species) diameter = std::max(diameter, species.parcel_diameter());
+  const double diameter = largest_diameter(campaign);
   double widest = 0;
   for (const auto& corner : campaign.scene.geometry.profile) widest = std::max(widest, corner[1]);
   const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(2 * widest / diameter)));

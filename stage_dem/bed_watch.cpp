@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stage_dem/neighbour_grid.hpp"
+#include "stage_dem/parcels.hpp"
 
 namespace cupola {
 namespace {
@@ -15,10 +16,8 @@ constexpr double fast_speed = 5;
 }  // namespace
 
 double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator) {
-  double diameter = 0;
-  for (const auto& species : campaign.species) diameter = std::max(diameter, species.parcel_diameter());
-  const bool periodic = campaign.scene.geometry.sides == Geometry::Sides::periodic;
-  NeighbourGrid grid(diameter, periodic ? campaign.scene.geometry.depth : 0);
+  const double diameter = largest_diameter(campaign);
+  NeighbourGrid grid(diameter, period(campaign));
   for (std::size_t i = 0; i < parcels.size(); ++i) grid.add(parcels[i].position, i);
   int rank = 0;
   int ranks = 1;
@@ -53,13 +52,10 @@ BedMotion bed_motion(const std::vector<Parcel>& parcels, const std::set<std::int
 }
 
 bool in_interior(const Campaign& campaign, const Vector3& point, double surface) {
-  double diameter = 0;
-  for (const auto& species : campaign.species) diameter = std::max(diameter, species.parcel_diameter());
+  const double diameter = largest_diameter(campaign);
   const double away = 1.5 * diameter;
   if (std::abs(point[0]) > campaign.half_width(point[2]) - away) return false;
-  if (campaign.scene.geometry.sides == Geometry::Sides::walls &&
-      std::abs(point[1]) > campaign.scene.geometry.depth / 2 - away)
-    return false;
+  if (period(campaign) == 0 && std::abs(point[1]) > campaign.scene.geometry.depth / 2 - away) return false;
   if (point[2] < campaign.bottom() + away || point[2] > surface - away) return false;
   return std::none_of(campaign.raceways.begin(), campaign.raceways.end(), [&](const Raceway& raceway) {
     bool inside = true;

@@ -40,17 +40,14 @@ nlohmann::json DemFiles::summary() const {
   const double seconds = stage_.averages_.seconds();
   const auto rate = [&](double mass) { return seconds > 0 ? mass / seconds : 0; };
   double coke = 0;
-  double all = 0;
   std::vector<double> by_raceway;
   for (const auto& counts : window.raceways()) {
     MassBooks::Counts hard = counts;
     for (std::size_t s = 0; s < hard.size(); ++s)
       if (campaign.species[s].softening) hard[s] = 0;
     coke += window.mass(hard);
-    all += window.mass(counts);
     by_raceway.push_back(rate(window.mass(counts)));
   }
-  const double out = all + window.mass(window.melted()) + window.mass(window.unmelted());
   nlohmann::json summary{
       {"parcels", stage_.parcels_.size()},
       {"cells", stage_.mesh_.cells()},
@@ -68,7 +65,6 @@ nlohmann::json DemFiles::summary() const {
       {"ore_melted_rate", rate(window.mass(window.melted()))},
       {"ore_unmelted_rate", rate(window.mass(window.unmelted()))},
       {"charge_rate", rate(window.mass(window.charged()))},
-      {"storage_rate", rate(window.mass(window.charged()) - out)},
       {"starved_seconds", stage_.raceways_.starved_seconds()},
       {"window_seconds", seconds},
       {"blocks", stage_.averages_.batches()},
@@ -130,6 +126,7 @@ void DemFiles::write_result() {
                        flat(mesh.points), corners);
   file.cell_data("solids_fraction", fields.fraction);
   file.cell_data("solids_fraction_error", fields.fraction_error);
+  file.cell_data("solids_fraction_growth", fields.fraction_growth);
   file.cell_data("contact_fraction", fields.contact_fraction);
   file.cell_data("solids_velocity", fields.velocity, 3);
   file.cell_data("solids_velocity_error", fields.velocity_error, 3);

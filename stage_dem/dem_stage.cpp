@@ -103,11 +103,7 @@ void DemStage::begin() {
 void DemStage::enter(DemPhase phase) {
   state_.phase = phase;
   state_.phase_time = 0;
-  if (phase == DemPhase::averaging) {
-    books_at_window_ = books_;
-    state_.stored_at_window = 0;
-    for (const auto& parcel : parcels_) state_.stored_at_window += parcel.mass;
-  }
+  if (phase == DemPhase::averaging) books_at_window_ = books_;
   spdlog::info("{} at {:.2f} s of process time, {} parcels", phase_name(phase), state_.time, parcels_.size());
 }
 

@@ -28,7 +28,6 @@ struct DemState {
   std::int64_t fast_parcels = 0;             ///< parcels faster than 5 m/s, added up over blocks after the building
   double largest_overlap = 0;                ///< over the smaller radius, after the building
   double creep_speed = 0;                    ///< m/s downwards, end of the settling
-  double stored_at_window = 0;               ///< kg in the bed and hopper when the window began
   double mean_speed = 0;                     ///< m/s, last block
   double stock_height = 0;                   ///< m
   double wall_before = 0;                    ///< s of wall time in earlier starts of this task
@@ -36,7 +35,6 @@ struct DemState {
 };
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DemState, phase, time, phase_time, last_block, next_id, fast_parcels,
-                                   largest_overlap, creep_speed, stored_at_window, mean_speed, stock_height,
-                                   wall_before, wall_parts)
+                                   largest_overlap, creep_speed, mean_speed, stock_height, wall_before, wall_parts)
 
 }  // namespace cupola

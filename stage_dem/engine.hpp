@@ -61,9 +61,6 @@ class Engine {
   /// Sets the contact radii, in the order of `owned`; masses stay.
   virtual void resize(const std::vector<double>& radii) = 0;
 
-  /// Sets all velocities and spins to zero.
-  virtual void stop_motion() = 0;
-
   /// The whole state, on rank 0; empty on the others.
   [[nodiscard]] virtual std::vector<std::uint8_t> snapshot() = 0;
 };

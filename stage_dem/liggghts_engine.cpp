@@ -21,6 +21,7 @@
 #include "schemas/failure.hpp"
 #include "stage_dem/liggghts_instance.hpp"
 #include "stage_dem/liggghts_script.hpp"
+#include "stage_dem/parcels.hpp"
 
 namespace cupola {
 namespace {
@@ -28,9 +29,7 @@ namespace {
 class LiggghtsEngine final : public Engine {
  public:
   LiggghtsEngine(const Campaign& campaign, const EngineSetUp& set_up, MPI_Comm communicator)
-      : liggghts_(communicator, set_up.folder + "/liggghts.log"),
-        folder_(set_up.folder),
-        depth_(campaign.scene.geometry.sides == Geometry::Sides::periodic ? campaign.scene.geometry.depth : 0) {
+      : liggghts_(communicator, set_up.folder + "/liggghts.log"), folder_(set_up.folder), depth_(period(campaign)) {
     for (const auto& line : liggghts_opening(campaign, liggghts_.ranks())) liggghts_.command(line);
     int resumed = set_up.from.empty() ? 0 : 1;
     MPI_Bcast(&resumed, 1, MPI_INT, 0, liggghts_.communicator());
@@ -130,12 +129,6 @@ class LiggghtsEngine final : public Engine {
       atom.radius[i] = radii[i];
       atom.density[i] = atom.rmass[i] / (4.0 / 3 * std::numbers::pi * std::pow(radii[i], 3));
     }
-  }
-
-  void stop_motion() override {
-    auto& atom = *liggghts_->atom;
-    for (int i = 0; i < atom.nlocal; ++i)
-      for (int k = 0; k < 3; ++k) atom.v[i][k] = atom.omega[i][k] = 0;
   }
 
   std::vector<std::uint8_t> snapshot() override {

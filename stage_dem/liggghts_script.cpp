@@ -9,26 +9,15 @@
 #include <numbers>
 
 #include "schemas/failure.hpp"
+#include "stage_dem/parcels.hpp"
 
 namespace cupola {
 namespace {
-
-double largest_diameter(const Campaign& campaign) {
-  double largest = 0;
-  for (const auto& species : campaign.species) largest = std::max(largest, species.parcel_diameter());
-  return largest;
-}
 
 double largest_half_width(const Campaign& campaign) {
   double largest = 0;
   for (const auto& corner : campaign.scene.geometry.profile) largest = std::max(largest, corner[1]);
   return largest;
-}
-
-bool periodic(const Campaign& campaign) { return campaign.scene.geometry.sides == Geometry::Sides::periodic; }
-
-double parcel_mass(const Species& species) {
-  return species.density * std::numbers::pi / 6 * std::pow(species.parcel_diameter(), 3);
 }
 
 /// `fix ID all property/global NAME peratomtypepair N v11 v12 …` from a function of two indices, the wall's last.
@@ -119,7 +108,7 @@ std::vector<std::string> liggghts_opening(const Campaign& campaign, int ranks) {
     if (ranks % n == 0 && 2 * largest_half_width(campaign) / n >= thinnest) across = n;
   return {"atom_style granular",
           // Exact tags; no sorting, so that the order of parcels (and with it round-off) depends on the run alone.
-          "atom_modify map array sort 0 0", fmt::format("boundary f {} f", periodic(campaign) ? "p" : "f"),
+          "atom_modify map array sort 0 0", fmt::format("boundary f {} f", period(campaign) > 0 ? "p" : "f"),
           "newton off", "communicate single vel yes", "units si",
           fmt::format("processors {} 1 {}", across, ranks / across)};
 }
@@ -127,7 +116,7 @@ std::vector<std::string> liggghts_opening(const Campaign& campaign, int ranks) {
 std::vector<std::string> liggghts_box(const Campaign& campaign) {
   const double margin = largest_diameter(campaign);
   const double x = largest_half_width(campaign) + margin;
-  const double y = campaign.scene.geometry.depth / 2 + (periodic(campaign) ? 0 : margin);
+  const double y = campaign.scene.geometry.depth / 2 + (period(campaign) > 0 ? 0 : margin);
   return {fmt::format("region domain block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} units box", -x, x, -y, y,
                       campaign.bottom() - margin, campaign.hopper_top() + margin),
           fmt::format("create_box {} domain", campaign.species.size() + 1)};

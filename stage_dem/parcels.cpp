@@ -47,6 +47,16 @@ double parcel_mass(const Species& species) {
   return species.density * sphere * std::pow(species.parcel_diameter() / 2, 3);
 }
 
+double largest_diameter(const Campaign& campaign) {
+  double largest = 0;
+  for (const auto& species : campaign.species) largest = std::max(largest, species.parcel_diameter());
+  return largest;
+}
+
+double period(const Campaign& campaign) {
+  return campaign.scene.geometry.sides == Geometry::Sides::periodic ? campaign.scene.geometry.depth : 0;
+}
+
 double contact_volume(const Parcel& parcel) { return sphere * std::pow(parcel.radius, 3); }
 
 double material_volume(const Campaign& campaign, const Parcel& parcel) {

@@ -17,6 +17,12 @@ Parcel new_parcel(const Campaign& campaign, std::int64_t id, int species, const 
 /// Mass of a parcel of a species, kg.
 double parcel_mass(const Species& species);
 
+/// Diameter of the largest unsoftened parcel, m.
+double largest_diameter(const Campaign& campaign);
+
+/// Period along y, m; 0 where the sides are walls.
+double period(const Campaign& campaign);
+
 /// Contact volume 4/3 pi r^3, m3.
 double contact_volume(const Parcel& parcel);
 

@@ -7,21 +7,13 @@
 namespace cupola {
 namespace {
 
-double largest_diameter(const Campaign& campaign) {
-  double largest = 0;
-  for (const auto& species : campaign.species) largest = std::max(largest, species.parcel_diameter());
-  return largest;
-}
-
-bool periodic(const Campaign& campaign) { return campaign.scene.geometry.sides == Geometry::Sides::periodic; }
-
 /// Downward speed at which poured parcels start, m/s: they fall from just above the bed.
 constexpr double pouring_speed = 1.2;
 
 }  // namespace
 
 Pouring::Pouring(const Campaign& campaign, const std::vector<Parcel>& present)
-    : campaign_(campaign), grid_(largest_diameter(campaign), periodic(campaign) ? campaign.scene.geometry.depth : 0) {
+    : campaign_(campaign), grid_(largest_diameter(campaign), period(campaign)) {
   for (const auto& parcel : present) {
     grid_.add(parcel.position, radius_.size());
     radius_.push_back(parcel.radius);
@@ -46,7 +38,7 @@ bool Pouring::place(double from, double to, std::int64_t id, const std::function
     if (species < 0) continue;
     const double radius = campaign_.species[static_cast<std::size_t>(species)].parcel_diameter() / 2;
     if (std::abs(x) > room(campaign_, z, radius) || z < campaign_.bottom() + radius) continue;
-    const Vector3 position{x, share_of_depth * (periodic(campaign_) ? half_depth : half_depth - radius), z};
+    const Vector3 position{x, share_of_depth * (period(campaign_) > 0 ? half_depth : half_depth - radius), z};
     if (!free(position, radius)) continue;
     Parcel parcel = new_parcel(campaign_, id, species, position);
     parcel.velocity[2] = -pouring_speed;

@@ -22,7 +22,8 @@ WindowAverages::WindowAverages(std::size_t cells, double batch_seconds)
       sum_of_squares_(cells * columns),
       sum_of_products_(cells * columns),
       last_(cells * columns),
-      first_(cells * columns) {}
+      first_(cells * columns),
+      moment_(cells) {}
 
 void WindowAverages::add(const BedSample& sample, double seconds) {
   for (std::size_t cell = 0; cell < cells_; ++cell) {
@@ -41,6 +42,7 @@ void WindowAverages::close_batch() {
     const double* integral = &running_[cell * integrals];
     std::array<double, columns> mean{integral[0] / running_seconds_, 0, 0, 0};
     for (std::size_t k = 0; k < 3; ++k) mean[1 + k] = integral[0] > 0 ? integral[1 + k] / integral[0] : 0;
+    moment_[cell] += static_cast<double>(batches_) * mean[0];
     for (std::size_t k = 0; k < columns; ++k) {
       const std::size_t i = cell * columns + k;
       sum_[i] += mean[k];
@@ -52,6 +54,7 @@ void WindowAverages::close_batch() {
   }
   for (std::size_t i = 0; i < running_.size(); ++i) total_[i] += running_[i];
   std::fill(running_.begin(), running_.end(), 0.0);
+  closed_seconds_ += running_seconds_;
   running_seconds_ = 0;
   ++batches_;
 }
@@ -69,6 +72,7 @@ WindowAverages::Fields WindowAverages::fields() const {
   fields.fraction.resize(cells_);
   fields.contact_fraction.resize(cells_);
   fields.fraction_error.assign(cells_, none);
+  fields.fraction_growth.assign(cells_, 0.0);
   fields.velocity.assign(3 * cells_, 0.0);
   fields.velocity_error.assign(3 * cells_, none);
   const double n = static_cast<double>(batches_);
@@ -98,6 +102,8 @@ WindowAverages::Fields WindowAverages::fields() const {
   if (batches_ < 2) return fields;
   const std::array<double, 2> wide{widening(successive[0], squares[0]), widening(successive[1], squares[1])};
   for (std::size_t cell = 0; cell < cells_; ++cell) {
+    const double slope = 12 * (moment_[cell] - 0.5 * (n - 1) * sum_[cell * columns]) / (n * (n * n - 1));  // a batch
+    fields.fraction_growth[cell] = slope * n / closed_seconds_;
     fields.fraction_error[cell] = wide[0] * std::sqrt(variance[cell * columns] / (n * (n - 1)));
     for (std::size_t k = 0; k < 3; ++k)
       fields.velocity_error[3 * cell + k] = wide[1] * std::sqrt(variance[cell * columns + 1 + k] / (n * (n - 1)));
@@ -128,7 +134,8 @@ void WindowAverages::save(HdfWriter& file) const {
   file.write("Averages/sum_of_products", sum_of_products_);
   file.write("Averages/last", last_);
   file.write("Averages/first", first_);
-  file.write("Averages/seconds", std::vector<double>{seconds_, running_seconds_});
+  file.write("Averages/moment", moment_);
+  file.write("Averages/seconds", std::vector<double>{seconds_, running_seconds_, closed_seconds_});
   file.write("Averages/batches", std::vector<std::int64_t>{batches_});
 }
 
@@ -141,9 +148,11 @@ void WindowAverages::load(const HdfReader& file) {
   sum_of_products_ = file.doubles("Averages/sum_of_products", rows);
   last_ = file.doubles("Averages/last", rows);
   first_ = file.doubles("Averages/first", rows);
-  const auto seconds = file.doubles("Averages/seconds", 2);
+  moment_ = file.doubles("Averages/moment", static_cast<std::int64_t>(moment_.size()));
+  const auto seconds = file.doubles("Averages/seconds", 3);
   seconds_ = seconds[0];
   running_seconds_ = seconds[1];
+  closed_seconds_ = seconds[2];
   batches_ = file.integers("Averages/batches", 1)[0];
 }
 

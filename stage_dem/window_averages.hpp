@@ -29,9 +29,10 @@ class WindowAverages {
   [[nodiscard]] double seconds() const { return seconds_; }
   [[nodiscard]] std::int64_t batches() const { return batches_; }
 
-  /// Means and their standard errors; errors are NaN with fewer than two batches.
+  /// Means and their standard errors; errors are NaN, and the growth zero, with fewer than two batches.
   struct Fields {
     std::vector<double> fraction, fraction_error, contact_fraction;
+    std::vector<double> fraction_growth;           ///< 1/s: slope of the straight line through the batch means
     std::vector<double> velocity, velocity_error;  ///< m/s, cells x 3; velocity zero in empty cells
   };
   [[nodiscard]] Fields fields() const;
@@ -60,6 +61,8 @@ class WindowAverages {
   std::vector<double> sum_of_products_;  ///< of a batch and the one before
   std::vector<double> last_;             ///< batch before
   std::vector<double> first_;            ///< first batch
+  std::vector<double> moment_;           ///< sum over batches of number (from 0) x mean fraction; cells
+  double closed_seconds_ = 0;            ///< of all closed batches
 };
 
 }  // namespace cupola

@@ -71,6 +71,7 @@ DemResult read_dem_result(const std::filesystem::path& file, const BedMesh& mesh
     return values;
   };
   result.solids_fraction = field("solids_fraction", 1);
+  result.solids_growth = field("solids_fraction_growth", 1);
   result.contact_fraction = field("contact_fraction", 1);
   result.solids_velocity = vectors(field("solids_velocity", 3));
   result.packing = read_packing(fields.hdf(), campaign);
@@ -85,7 +86,6 @@ DemResult read_dem_result(const std::filesystem::path& file, const BedMesh& mesh
   const nlohmann::json summary = fields.summary();
   result.persistent_removal_rate = summary.value("coke_removal_rate", 0.0);
   result.removal_by_raceway = summary.value("removal_by_raceway", std::vector<double>{});
-  result.storage_rate = summary.value("storage_rate", 0.0);
   return result;
 }
 

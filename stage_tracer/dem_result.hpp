@@ -22,6 +22,7 @@ struct Packing {
 /// What the tracer stage reads of a DEM result (docs/contracts.md); arrays over all cells.
 struct DemResult {
   std::vector<double> solids_fraction;   ///< material volume fraction
+  std::vector<double> solids_growth;     ///< 1/s: its change in the window
   std::vector<double> contact_fraction;  ///< contact volume fraction
   std::vector<Vector3> solids_velocity;  ///< m/s, at DEM speed
   Packing packing;
@@ -29,7 +30,6 @@ struct DemResult {
   std::vector<double> owed;                ///< kg a species not yet charged of the running layer
   double persistent_removal_rate = 0;      ///< kg/s, `coke_removal_rate`
   std::vector<double> removal_by_raceway;  ///< kg/s
-  double storage_rate = 0;                 ///< kg/s
 };
 
 /// @throws Failure wrong_input: of another mesh, a field that is missing, too short or not finite, no parcel;

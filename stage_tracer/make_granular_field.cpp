@@ -12,27 +12,48 @@
 namespace cupola {
 namespace {
 
-/// Persistent volume that passes the middle third of the shaft between raceways and charged layers, m3/s: mean over its
-/// cells.
-double flux_at_mid_shaft(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
-                         const std::vector<Vector3>& flux) {
+/// Heights between which the shaft is free of raceways and of freshly charged layers: the middle third, m.
+struct MidShaft {
+  double lower, upper;
+};
+
+MidShaft mid_shaft(const Campaign& campaign) {
   double lower = campaign.bottom();
   for (const Raceway& raceway : campaign.raceways) lower = std::max(lower, raceway.box[1][2]);
   const double upper = std::min(campaign.charging.stock_line, campaign.top());
   const double third = (upper - lower) / 3;
+  return {lower + third, upper - third};
+}
+
+/// Persistent volume that passes the middle third of the shaft, m3/s: mean over its cells.
+double flux_at_mid_shaft(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
+                         const std::vector<Vector3>& flux) {
+  const MidShaft middle = mid_shaft(campaign);
   double total = 0;
   for (const Column& column : mesh_columns(mesh, bed)) {
     double sum = 0;
     int count = 0;
     for (const std::int64_t cell : column.cells) {
       const double z = mesh.cell_centre[cell][2];
-      if (z < lower + third || z > upper - third) continue;
+      if (z < middle.lower || z > middle.upper) continue;
       const double area = 0.5 * (std::abs(mesh.face_area[mesh.cell_faces[cell][4]][2]) +
                                  std::abs(mesh.face_area[mesh.cell_faces[cell][5]][2]));
       sum -= flux[cell][2] * area;
       ++count;
     }
     if (count > 0) total += sum / count;
+  }
+  return total;
+}
+
+/// Persistent volume that the bed below mid-shaft gained a second in the DEM window, m3/s (MODEL 8).
+double storage_below_mid_shaft(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
+                               const std::vector<double>& share, const std::vector<double>& growth) {
+  const MidShaft middle = mid_shaft(campaign);
+  double total = 0;
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    if (bed[c] && mesh.cell_centre[c][2] < 0.5 * (middle.lower + middle.upper))
+      total += share[c] * growth[c] * mesh.cell_volume[c];
   }
   return total;
 }
@@ -115,7 +136,8 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
   if (known_sink) {
     field.scale = persistent_mass_rate / dem.persistent_removal_rate;
     field.scale_check = passing * field.scale / coke_rate - 1;
-    field.storage_over_removal = dem.storage_rate / dem.persistent_removal_rate;
+    field.storage_over_removal =
+        storage_below_mid_shaft(mesh, campaign, field.bed, share, dem.solids_growth) * field.scale / coke_rate;
   } else {
     if (!(passing > 0)) {
       throw Failure(

@@ -31,7 +31,7 @@ class Cleaning {
     double total = 0;
     for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
       if (!raw.bed[cell]) continue;
-      sink[cell] = (raw.sink[cell] + (raw.storage.empty() ? 0 : raw.storage[cell])) * mesh.cell_volume[cell];
+      sink[cell] = raw.sink[cell] * mesh.cell_volume[cell];
       total += sink[cell];
       flux_scale += std::abs(sink[cell]);
     }
@@ -225,7 +225,7 @@ class Cleaning {
   const BedMesh& mesh;
   const RawGranularField& raw;
   FaceGeometry geometry;
-  std::vector<double> sink;  ///< m3/s a cell, storage included
+  std::vector<double> sink;  ///< m3/s a cell
   double total_sink = 0;     ///< m3/s
   double flux_scale = 0;     ///< m3/s, sum of the sinks' magnitudes
 };

@@ -12,15 +12,13 @@ struct RawGranularField {
   std::vector<Vector3> coke_flux;
   /// 1/s: solids volume of coke removed per cell volume and second, positive; the raceways
   std::vector<double> sink;
-  /// 1/s: growth of the coke's volume fraction, d(f alpha)/dt, in the window (MODEL 8); empty: none
-  std::vector<double> storage;
   std::vector<bool> bed;  ///< cells below the stock plane; elsewhere the flux is zero
   int smoothing_passes = 0;
   bool mirror_symmetric = false;  ///< average with the mirror image in x where mesh and raceways are symmetric
 };
 
-/// Result: volume fluxes of coke through all faces (BedMesh numbering, out of the owner, m3/s), with div = -(sink +
-/// storage) in every bed cell to solver round-off, no flux through walls, inflow at the stock plane spread like the raw
+/// Result: volume fluxes of coke through all faces (BedMesh numbering, out of the owner, m3/s), with div = -sink
+/// in every bed cell to solver round-off, no flux through walls, inflow at the stock plane spread like the raw
 /// field's (uniform where that has none) and scaled to the total sink.  The correction of a face is weighted with the
 /// speed beside it, so that what stands still in the raw field (the dead man) stays nearly still.
 struct CleanGranularField {

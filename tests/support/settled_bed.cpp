@@ -106,6 +106,7 @@ void write_settled_bed(const std::filesystem::path& file, const BedMesh& mesh, c
   for (const auto& cell : mesh.cell_points) cell_points.insert(cell_points.end(), cell.begin(), cell.end());
   FieldFileWriter out(file, {"dem-result", task.campaign_hash, mesh.hash}, flat(mesh.points), cell_points);
   out.cell_data("solids_fraction", fraction);
+  out.cell_data("solids_fraction_growth", std::vector<double>(fraction.size(), 0.0));
   out.cell_data("contact_fraction", fraction);
   out.cell_data("solids_velocity", flat(velocity), 3);
   out.hdf().write("Packing/id", parcels.id);
@@ -115,9 +116,7 @@ void write_settled_bed(const std::filesystem::path& file, const BedMesh& mesh, c
   out.hdf().write("Packing/mass", parcels.mass);
   out.hdf().write("Charging/next_layer", std::vector<std::int64_t>{0});
   out.hdf().write("Charging/owed", std::vector<double>(campaign.species.size(), 0.0));
-  out.summary({{"coke_removal_rate", by_raceway.empty() ? 0.0 : coke_rate},
-               {"removal_by_raceway", by_raceway},
-               {"storage_rate", 0.0}});
+  out.summary({{"coke_removal_rate", by_raceway.empty() ? 0.0 : coke_rate}, {"removal_by_raceway", by_raceway}});
   out.commit();
 }
 

@@ -222,6 +222,12 @@ TEST(WindowAverages, CorrelatedBatchesWidenTheError) {
   EXPECT_NEAR(averages.fields().velocity_error[0], plain * std::sqrt(1.8 / 0.2), 1e-9);
 }
 
+TEST(WindowAverages, GrowthIsTheSlopeOfAFractionThatRisesSteadily) {
+  WindowAverages averages(1, 0.1);
+  for (int i = 0; i < 10; ++i) averages.add({{0.5 + 0.02 * i}, {0.6}, {0, 0, 0}}, 0.1);
+  EXPECT_NEAR(averages.fields().fraction_growth[0], 0.2, 1e-12);
+}
+
 TEST(BedBuilder, BuildsALayeredBedToTheStockLineWithOreWhereItStaysSolid) {
   const Campaign campaign = furnace();
   const OreTemperature temperature(campaign);
