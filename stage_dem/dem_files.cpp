@@ -48,6 +48,8 @@ bool DemFiles::resume() {
   stage_.books_.load(state.at("books"));
   stage_.books_at_window_.load(state.at("books_at_window"));
   stage_.averages_.load(file);
+  for (std::size_t s = 0; s < stage_.species_averages_.size(); ++s)
+    stage_.species_averages_[s].load(file, stage_.campaign_.species[s].name + "/");
   if (stage_.gas_) stage_.gas_->load(file);
   if (stage_.rank_ == 0) cut_history(stage_.folder_, found->step);
   return true;
@@ -119,6 +121,8 @@ void DemFiles::write_checkpoint() {
     file.write("Engine/snapshot", snapshot);
     file.write_text("State", text.dump());
     stage_.averages_.save(file);
+    for (std::size_t s = 0; s < stage_.species_averages_.size(); ++s)
+      stage_.species_averages_[s].save(file, stage_.campaign_.species[s].name + "/");
     if (stage_.gas_) stage_.gas_->save(file);
     file.commit();
   });

@@ -24,6 +24,8 @@ class DemFiles {
  private:
   [[nodiscard]] nlohmann::json summary() const;
   void write_packing(HdfWriter& file) const;
+  /// Mass charged in the averaging window over that of the whole recipe.
+  [[nodiscard]] double layer_passages() const;
 
   DemStage& stage_;
 };

@@ -65,6 +65,7 @@ nlohmann::json DemFiles::summary() const {
       {"ore_melted_rate", rate(window.mass(window.melted()))},
       {"ore_unmelted_rate", rate(window.mass(window.unmelted()))},
       {"charge_rate", rate(window.mass(window.charged()))},
+      {"layer_passages", layer_passages()},
       {"starved_seconds", stage_.raceways_.starved_seconds()},
       {"window_seconds", seconds},
       {"blocks", stage_.averages_.batches()},
@@ -76,6 +77,14 @@ nlohmann::json DemFiles::summary() const {
     summary["gas"] = stage_.gas_->summary();
   }
   return summary;
+}
+
+double DemFiles::layer_passages() const {
+  double recipe = 0;
+  for (const Layer& layer : stage_.campaign_.charging.layers)
+    for (const auto& [name, mass] : layer) recipe += mass;
+  const MassBooks window = stage_.books_.since(stage_.books_at_window_);
+  return recipe > 0 ? window.mass(window.charged()) / recipe : 0;
 }
 
 void DemFiles::write_packing(HdfWriter& file) const {
@@ -126,14 +135,24 @@ void DemFiles::write_result() {
                        flat(mesh.points), corners);
   file.cell_data("solids_fraction", fields.fraction);
   file.cell_data("solids_fraction_error", fields.fraction_error);
-  file.cell_data("solids_fraction_growth", fields.fraction_growth);
+  file.cell_data("solids_growth", fields.fraction_growth);
   file.cell_data("contact_fraction", fields.contact_fraction);
   file.cell_data("solids_velocity", fields.velocity, 3);
   file.cell_data("solids_velocity_error", fields.velocity_error, 3);
+  const bool averaged = layer_passages() >= 2 && !stage_.species_averages_.empty();
   for (std::size_t s = 0; s < stage_.campaign_.species.size(); ++s) {
+    const std::string& species = stage_.campaign_.species[s].name;
+    if (averaged) {
+      const auto own = stage_.species_averages_[s].fields();
+      file.cell_data("solids_fraction." + species, own.fraction);
+      file.cell_data("solids_fraction_error." + species, own.fraction_error);
+      file.cell_data("solids_velocity." + species, own.velocity, 3);
+      file.cell_data("solids_velocity_error." + species, own.velocity_error, 3);
+      continue;
+    }
     std::vector<double> fraction = stage_.solids_.species_volume()[s];
     for (std::size_t cell = 0; cell < fraction.size(); ++cell) fraction[cell] /= mesh.cell_volume[cell];
-    file.cell_data("solids_fraction." + stage_.campaign_.species[s].name, fraction);
+    file.cell_data("solids_fraction." + species, fraction);
   }
   if (stage_.gas_) {
     file.cell_data("gas_pressure", stage_.gas_->pressure());

@@ -56,7 +56,8 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       raceways_(task.campaign),
       books_(task.campaign),
       books_at_window_(task.campaign),
-      averages_(mesh.cells(), batch_seconds(task.campaign.dem.window)) {
+      averages_(mesh.cells(), batch_seconds(task.campaign.dem.window)),
+      species_averages_(task.campaign.species.size() > 1 ? task.campaign.species.size() : 0, averages_) {
   if (campaign_.scene.gas && campaign_.dem.gas == DemSettings::GasModel::quasi_steady)
     gas_.emplace(foam, mesh, campaign_, temperature_.gas());
 }
@@ -190,10 +191,14 @@ bool DemStage::window_complete() const {
 }
 
 void DemStage::sample() {
+  constexpr std::size_t columns = 5;
   const auto owned = engine_->owned();
   const auto& falling = charging_.state().falling;
-  const auto sums = solids_.sums(5, [&](std::size_t i, std::span<double> value) {
+  const std::size_t species = campaign_.species.size();
+  const auto sums = solids_.sums(columns * species, [&](std::size_t i, std::span<double> all) {
     if (falling.contains(owned[i].id)) return false;
+    std::fill(all.begin(), all.end(), 0.0);
+    const auto value = all.subspan(columns * static_cast<std::size_t>(owned[i].species), columns);
     const double volume = material_volume(campaign_, owned[i]);
     value[0] = volume;
     value[1] = contact_volume(owned[i]);
@@ -201,13 +206,25 @@ void DemStage::sample() {
     return true;
   });
   const std::size_t cells = mesh_.cells();
-  BedSample sample{std::vector<double>(cells), std::vector<double>(cells), std::vector<double>(3 * cells)};
+  const BedSample nothing{std::vector<double>(cells), std::vector<double>(cells), std::vector<double>(3 * cells)};
+  std::vector<BedSample> of_species(species, nothing);
+  BedSample all = nothing;
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    sample.fraction[cell] = sums[5 * cell] / mesh_.cell_volume[cell];
-    sample.contact_fraction[cell] = sums[5 * cell + 1] / mesh_.cell_volume[cell];
-    for (std::size_t k = 0; k < 3; ++k) sample.flux[3 * cell + k] = sums[5 * cell + 2 + k] / mesh_.cell_volume[cell];
+    for (std::size_t s = 0; s < species; ++s) {
+      const double* row = &sums[(cell * species + s) * columns];
+      BedSample& one = of_species[s];
+      one.fraction[cell] = row[0] / mesh_.cell_volume[cell];
+      one.contact_fraction[cell] = row[1] / mesh_.cell_volume[cell];
+      all.fraction[cell] += one.fraction[cell];
+      all.contact_fraction[cell] += one.contact_fraction[cell];
+      for (std::size_t k = 0; k < 3; ++k) {
+        one.flux[3 * cell + k] = row[2 + k] / mesh_.cell_volume[cell];
+        all.flux[3 * cell + k] += one.flux[3 * cell + k];
+      }
+    }
   }
-  averages_.add(sample, state_.last_block);
+  averages_.add(all, state_.last_block);
+  for (std::size_t s = 0; s < species_averages_.size(); ++s) species_averages_[s].add(of_species[s], state_.last_block);
 }
 
 double DemStage::temperature_at(const Parcel& parcel) const {

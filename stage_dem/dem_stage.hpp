@@ -82,6 +82,7 @@ class DemStage {
   MassBooks books_;
   MassBooks books_at_window_;
   WindowAverages averages_;
+  std::vector<WindowAverages> species_averages_;  ///< one a species; none where there is one species only
   std::unique_ptr<Engine> engine_;
   std::vector<Parcel> parcels_;  ///< all, after the last block
   bool regrowing_ = false;       ///< whether the last regrowth changed a radius

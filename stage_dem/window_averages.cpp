@@ -1,6 +1,7 @@
 #include "stage_dem/window_averages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -126,34 +127,36 @@ double WindowAverages::relative_error(const std::vector<bool>& cells) const {
   return square > 0 ? std::sqrt(error / square) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void WindowAverages::save(HdfWriter& file) const {
-  file.write("Averages/running", running_);
-  file.write("Averages/total", total_);
-  file.write("Averages/sum", sum_);
-  file.write("Averages/sum_of_squares", sum_of_squares_);
-  file.write("Averages/sum_of_products", sum_of_products_);
-  file.write("Averages/last", last_);
-  file.write("Averages/first", first_);
-  file.write("Averages/moment", moment_);
-  file.write("Averages/seconds", std::vector<double>{seconds_, running_seconds_, closed_seconds_});
-  file.write("Averages/batches", std::vector<std::int64_t>{batches_});
+void WindowAverages::save(HdfWriter& file, const std::string& group) const {
+  const std::string at = "Averages/" + group;
+  file.write(at + "running", running_);
+  file.write(at + "total", total_);
+  file.write(at + "sum", sum_);
+  file.write(at + "sum_of_squares", sum_of_squares_);
+  file.write(at + "sum_of_products", sum_of_products_);
+  file.write(at + "last", last_);
+  file.write(at + "first", first_);
+  file.write(at + "moment", moment_);
+  file.write(at + "seconds", std::vector<double>{seconds_, running_seconds_, closed_seconds_});
+  file.write(at + "batches", std::vector<std::int64_t>{batches_});
 }
 
-void WindowAverages::load(const HdfReader& file) {
-  running_ = file.doubles("Averages/running", static_cast<std::int64_t>(running_.size()));
-  total_ = file.doubles("Averages/total", static_cast<std::int64_t>(total_.size()));
+void WindowAverages::load(const HdfReader& file, const std::string& group) {
+  const std::string at = "Averages/" + group;
+  running_ = file.doubles(at + "running", static_cast<std::int64_t>(running_.size()));
+  total_ = file.doubles(at + "total", static_cast<std::int64_t>(total_.size()));
   const auto rows = static_cast<std::int64_t>(sum_.size());
-  sum_ = file.doubles("Averages/sum", rows);
-  sum_of_squares_ = file.doubles("Averages/sum_of_squares", rows);
-  sum_of_products_ = file.doubles("Averages/sum_of_products", rows);
-  last_ = file.doubles("Averages/last", rows);
-  first_ = file.doubles("Averages/first", rows);
-  moment_ = file.doubles("Averages/moment", static_cast<std::int64_t>(moment_.size()));
-  const auto seconds = file.doubles("Averages/seconds", 3);
+  sum_ = file.doubles(at + "sum", rows);
+  sum_of_squares_ = file.doubles(at + "sum_of_squares", rows);
+  sum_of_products_ = file.doubles(at + "sum_of_products", rows);
+  last_ = file.doubles(at + "last", rows);
+  first_ = file.doubles(at + "first", rows);
+  moment_ = file.doubles(at + "moment", static_cast<std::int64_t>(moment_.size()));
+  const auto seconds = file.doubles(at + "seconds", 3);
   seconds_ = seconds[0];
   running_seconds_ = seconds[1];
   closed_seconds_ = seconds[2];
-  batches_ = file.integers("Averages/batches", 1)[0];
+  batches_ = file.integers(at + "batches", 1)[0];
 }
 
 }  // namespace cupola

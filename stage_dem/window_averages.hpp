@@ -1,5 +1,5 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "schemas/hdf.hpp"
@@ -41,8 +41,9 @@ class WindowAverages {
   /// given; NaN with fewer than two batches.
   [[nodiscard]] double relative_error(const std::vector<bool>& cells) const;
 
-  void save(HdfWriter& file) const;
-  void load(const HdfReader& file);
+  /// Under `Averages/` or a group below it, `group` ending with a slash.
+  void save(HdfWriter& file, const std::string& group = "") const;
+  void load(const HdfReader& file, const std::string& group = "");
 
  private:
   void close_batch();

@@ -71,7 +71,7 @@ DemResult read_dem_result(const std::filesystem::path& file, const BedMesh& mesh
     return values;
   };
   result.solids_fraction = field("solids_fraction", 1);
-  result.solids_growth = field("solids_fraction_growth", 1);
+  result.solids_growth = field("solids_growth", 1);
   result.contact_fraction = field("contact_fraction", 1);
   result.solids_velocity = vectors(field("solids_velocity", 3));
   result.packing = read_packing(fields.hdf(), campaign);

@@ -106,7 +106,7 @@ void write_settled_bed(const std::filesystem::path& file, const BedMesh& mesh, c
   for (const auto& cell : mesh.cell_points) cell_points.insert(cell_points.end(), cell.begin(), cell.end());
   FieldFileWriter out(file, {"dem-result", task.campaign_hash, mesh.hash}, flat(mesh.points), cell_points);
   out.cell_data("solids_fraction", fraction);
-  out.cell_data("solids_fraction_growth", std::vector<double>(fraction.size(), 0.0));
+  out.cell_data("solids_growth", std::vector<double>(fraction.size(), 0.0));
   out.cell_data("contact_fraction", fraction);
   out.cell_data("solids_velocity", flat(velocity), 3);
   out.hdf().write("Packing/id", parcels.id);
