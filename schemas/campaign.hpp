@@ -132,9 +132,16 @@ using Layer = std::map<std::string, double>;
 struct Charging {
   double stock_line = 0;      ///< m; a layer is charged when the bed's surface falls below it
   std::vector<Layer> layers;  ///< the recipe, repeated
-  double temperature = 293;   ///< K of the charge
+  std::vector<std::optional<std::array<double, 2>>>
+      rings;                 ///< m: |x| that each layer is laid between; absent (or no entry): the whole width
+  double temperature = 293;  ///< K of the charge
   double hopper_height =
       0;  ///< m, DEM domain above the mesh top; default: thickest layer (mass/density/0.55) plus 0.5 m
+
+  /// The ring of a layer; none where it covers the whole width.
+  [[nodiscard]] std::optional<std::array<double, 2>> ring_of(std::size_t layer) const {
+    return layer < rings.size() ? rings[layer] : std::nullopt;
+  }
 };
 
 struct Raceway {
@@ -158,10 +165,21 @@ struct DemSettings {
   double block = 0.05;              ///< s, coupling block: gas, removal, charging and checkpoints happen between blocks
 };
 
+/// Where tracers are not displaced (`tracer.displacement_excludes`).
+struct DisplacementExcludes {
+  bool above_cohesive_zone = true;            ///< unmolten cells above `none_below`, where layers are to be kept
+  std::vector<std::array<Vector3, 2>> boxes;  ///< m, lower and upper corner
+};
+
 struct TracerSettings {
   enum class GasModel { none, darcy_forchheimer };
-  enum class Displacement { none, random };
+  enum class Displacement { none, random, relaxation, random_and_relaxation };
+  enum class Stop { duration, steady };
+  enum class Resolve { automatic, every_step };
   double duration = 3600;           ///< s
+  Stop stop = Stop::duration;       ///< `stop.when`
+  double at_most = 3600;            ///< s, `stop.at_most` (steady): longest process time; default: `duration`
+  double remaining_change = 0.01;   ///< `stop.remaining_change` (steady), over rms(T - 293 K); default: `accuracy`
   std::optional<double> time_step;  ///< s; absent: auto
   GasModel gas = GasModel::darcy_forchheimer;
   double accuracy = 0.01;       ///< wanted relative error
@@ -171,6 +189,13 @@ struct TracerSettings {
   Displacement displacement = Displacement::none;
   double displacement_coefficient = 5e-4;  ///< m2/s, D0 of the random displacement
   double displacement_limit = 0.05;        ///< m, largest random displacement a step
+  double relaxation_coefficient = 0.1;     ///< m2/s, D0 of the relaxation along the gradient
+  double relaxation_limit = 0.01;          ///< m, largest relaxation a step
+  DisplacementExcludes displacement_excludes;
+  Resolve resolve = Resolve::automatic;  ///< when the gas flow is solved again
+
+  /// Process time the stage marches, at most, s.
+  [[nodiscard]] double longest() const { return stop == Stop::steady ? at_most : duration; }
 };
 
 enum class Strategy { march };

@@ -229,8 +229,12 @@ Charging read_charging(const Section& section) {
     for (const auto& item : *layers) {
       Layer layer;
       const Section masses(&item);
-      for (const auto& [name, mass] : masses.members().items()) masses.need(name, layer[name]);
+      for (const auto& [name, mass] : masses.members().items()) {
+        if (name != "ring") masses.need(name, layer[name]);
+      }
       charging.layers.push_back(layer);
+      charging.rings.emplace_back();
+      if (masses.find("ring") != nullptr) masses.read("ring", charging.rings.back().emplace());
     }
   }
   section.read("temperature", charging.temperature);
@@ -238,16 +242,21 @@ Charging read_charging(const Section& section) {
   return charging;
 }
 
-Raceway read_raceway(const Section& section) {
-  Raceway raceway;
-  const auto box = section.section("box");
+std::array<Vector3, 2> read_box(const Section& section) {
+  std::array<Vector3, 2> box{};
   const std::array<std::string, 3> axes{"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::array<double, 2> range{};
-    box.read(axes[axis], range);
-    raceway.box[0][axis] = range[0];
-    raceway.box[1][axis] = range[1];
+    section.read(axes[axis], range);
+    box[0][axis] = range[0];
+    box[1][axis] = range[1];
   }
+  return box;
+}
+
+Raceway read_raceway(const Section& section) {
+  Raceway raceway;
+  raceway.box = read_box(section.section("box"));
   section.read("void", raceway.void_fraction);
   section.need("dem_removal_rate", raceway.dem_removal_rate);
   return raceway;
@@ -275,13 +284,25 @@ TracerSettings read_tracer(const Section& section, bool gas) {
   section.read("duration", tracer.duration);
   section.read("time_step", tracer.time_step);
   section.read("gas", tracer.gas, words::tracer_gas);
+  section.read("resolve", tracer.resolve, words::tracer_resolve);
   section.read("accuracy", tracer.accuracy);
+  const auto stop = section.section("stop");
+  stop.read("when", tracer.stop, words::tracer_stop);
+  tracer.at_most = tracer.duration;
+  stop.read("at_most", tracer.at_most);
+  tracer.remaining_change = tracer.accuracy;
+  stop.read("remaining_change", tracer.remaining_change);
   section.read("tracers_per_cell", tracer.tracers_per_cell);
   section.read("clean_field", tracer.clean_field);
   section.read("smoothing_passes", tracer.smoothing_passes);
   section.read("displacement", tracer.displacement, words::displacement);
   section.read("displacement_coefficient", tracer.displacement_coefficient);
   section.read("displacement_limit", tracer.displacement_limit);
+  section.read("relaxation_coefficient", tracer.relaxation_coefficient);
+  section.read("relaxation_limit", tracer.relaxation_limit);
+  const auto excludes = section.section("displacement_excludes");
+  excludes.read("above_cohesive_zone", tracer.displacement_excludes.above_cohesive_zone);
+  for (const auto& box : excludes.list("boxes")) tracer.displacement_excludes.boxes.push_back(read_box(box));
   return tracer;
 }
 

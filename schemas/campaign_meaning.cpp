@@ -74,6 +74,7 @@ void check_species(Context& context) {
     const auto path = path_of("species", species.name);
     if (species.name == "wall")
       context.add(path, "`wall` is the name of the walls in contacts.pairs: give the species another");
+    if (species.name == "ring") context.add(path, "`ring` is a key of charging.layers: give the species another name");
     if (!species.softening) {
       if (context.has(path_of(path, "none_below")))
         context.add(path_of(path, "none_below"), "only a species with `softening` can have this");
@@ -137,8 +138,24 @@ void check_stages(Context& context) {
     context.add("dem.block", "the block of {} s is longer than the averaging window, {} s", dem.block, dem.window);
   if (dem.time_step && *dem.time_step > dem.block)
     context.add("dem.time_step", "the step is longer than the block, {} s", dem.block);
-  if (campaign.tracer.time_step && *campaign.tracer.time_step > campaign.tracer.duration) {
-    context.add("tracer.time_step", "the step is longer than the stage, {} s", campaign.tracer.duration);
+  if (campaign.tracer.time_step && *campaign.tracer.time_step > campaign.tracer.longest()) {
+    context.add("tracer.time_step", "the step is longer than the stage, {} s", campaign.tracer.longest());
+  }
+  if (campaign.tracer.stop == TracerSettings::Stop::duration) {
+    for (const auto* path : {"tracer.stop.at_most", "tracer.stop.remaining_change"}) {
+      if (context.has(path)) context.add(path, "this needs `when: steady`; by itself an episode lasts tracer.duration");
+    }
+  }
+  if (campaign.tracer.stop == TracerSettings::Stop::steady && !campaign.heat && context.has("tracer.stop.when")) {
+    context.add("tracer.stop.when", "`steady` is judged by the temperatures, but the scene has no `heat`");
+  }
+  for (std::size_t i = 0; i < campaign.tracer.displacement_excludes.boxes.size(); ++i) {
+    const auto& box = campaign.tracer.displacement_excludes.boxes[i];
+    const auto path = path_of("tracer.displacement_excludes.boxes", i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (box[1][axis] <= box[0][axis])
+        context.add(path_of(path, std::string(1, "xyz"[axis])), "expected [from, to] with from < to");
+    }
   }
   if (campaign.converged.for_episodes > campaign.converged.at_most) {
     context.add("converged.for", "{} episodes in a row cannot happen in at most {}", campaign.converged.for_episodes,

@@ -35,6 +35,19 @@ void check_batch(Context& context, const std::string& path, double volume) {
   }
 }
 
+/// A ring lies inside the throat.
+void check_ring(Context& context, const std::string& path, std::size_t layer) {
+  const auto ring = context.campaign.charging.ring_of(layer);
+  if (!ring) return;
+  const double half_width = context.campaign.half_width(context.campaign.charging.stock_line);
+  if (!((*ring)[0] < (*ring)[1])) {
+    context.add(path, "expected [from, to] with from < to");
+  } else if ((*ring)[0] >= half_width || (*ring)[1] > half_width + rounding) {
+    context.add(path, "the ring from {} to {} m reaches outside the furnace, whose half width is {:.4g} m there",
+                (*ring)[0], (*ring)[1], half_width);
+  }
+}
+
 }  // namespace
 
 void check_charging(Context& context) {
@@ -57,7 +70,9 @@ void check_charging(Context& context) {
         context.add_at_key(path_of(path, name), "there is no species `{}`{}", name, suggestion(name, context.names));
       }
     }
+    if (charging.layers[i].empty()) context.add(path, "expected a mass of some species, like {{coke: 270 kg}}");
     if (context.shaped) check_batch(context, path, volume);
+    if (context.shaped) check_ring(context, path_of(path, "ring"), i);
   }
 }
 

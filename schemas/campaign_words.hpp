@@ -27,8 +27,15 @@ inline constexpr Table<DemSettings::Stop, 2> dem_stop{
     {{DemSettings::Stop::fields_converged, "fields-converged"}, {DemSettings::Stop::duration, "duration"}}};
 inline constexpr Table<TracerSettings::GasModel, 2> tracer_gas{
     {{TracerSettings::GasModel::none, "none"}, {TracerSettings::GasModel::darcy_forchheimer, "darcy-forchheimer"}}};
-inline constexpr Table<TracerSettings::Displacement, 2> displacement{
-    {{TracerSettings::Displacement::none, "none"}, {TracerSettings::Displacement::random, "random"}}};
+inline constexpr Table<TracerSettings::Displacement, 4> displacement{
+    {{TracerSettings::Displacement::none, "none"},
+     {TracerSettings::Displacement::random, "random"},
+     {TracerSettings::Displacement::relaxation, "relaxation"},
+     {TracerSettings::Displacement::random_and_relaxation, "random-and-relaxation"}}};
+inline constexpr Table<TracerSettings::Stop, 2> tracer_stop{
+    {{TracerSettings::Stop::duration, "duration"}, {TracerSettings::Stop::steady, "steady"}}};
+inline constexpr Table<TracerSettings::Resolve, 2> tracer_resolve{
+    {{TracerSettings::Resolve::automatic, "auto"}, {TracerSettings::Resolve::every_step, "every-step"}}};
 inline constexpr Table<Strategy, 1> strategy{{{Strategy::march, "march"}}};
 
 template <typename Enum, std::size_t count>

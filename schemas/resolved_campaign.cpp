@@ -87,11 +87,24 @@ Json contacts_json(const Contacts& contacts) {
   return json;
 }
 
+Json box_json(const std::array<Vector3, 2>& box) {
+  const auto range = [&](std::size_t axis) { return Json::array({box[0][axis], box[1][axis]}); };
+  return {{"x", range(0)}, {"y", range(1)}, {"z", range(2)}};
+}
+
+Json layers_json(const Charging& charging) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < charging.layers.size(); ++i) {
+    json.push_back(charging.layers[i]);
+    if (const auto ring = charging.ring_of(i)) json.back()["ring"] = *ring;
+  }
+  return json;
+}
+
 Json raceways_json(const std::vector<Raceway>& raceways) {
   Json json = Json::array();
   for (const auto& raceway : raceways) {
-    const auto range = [&](std::size_t axis) { return Json::array({raceway.box[0][axis], raceway.box[1][axis]}); };
-    json.push_back({{"box", {{"x", range(0)}, {"y", range(1)}, {"z", range(2)}}},
+    json.push_back({{"box", box_json(raceway.box)},
                     {"void", raceway.void_fraction},
                     {"dem_removal_rate", raceway.dem_removal_rate}});
   }
@@ -111,16 +124,29 @@ Json dem_json(const DemSettings& dem) {
 }
 
 Json tracer_json(const TracerSettings& tracer) {
+  Json stop{{"when", word(words::tracer_stop, tracer.stop)}};
+  if (tracer.stop == TracerSettings::Stop::steady) {
+    stop["at_most"] = tracer.at_most;
+    stop["remaining_change"] = tracer.remaining_change;
+  }
+  Json boxes = Json::array();
+  for (const auto& box : tracer.displacement_excludes.boxes) boxes.push_back(box_json(box));
   return {{"duration", tracer.duration},
+          {"stop", stop},
           {"time_step", or_auto(tracer.time_step)},
           {"gas", word(words::tracer_gas, tracer.gas)},
+          {"resolve", word(words::tracer_resolve, tracer.resolve)},
           {"accuracy", tracer.accuracy},
           {"tracers_per_cell", tracer.tracers_per_cell},
           {"clean_field", tracer.clean_field},
           {"smoothing_passes", tracer.smoothing_passes},
           {"displacement", word(words::displacement, tracer.displacement)},
           {"displacement_coefficient", tracer.displacement_coefficient},
-          {"displacement_limit", tracer.displacement_limit}};
+          {"displacement_limit", tracer.displacement_limit},
+          {"relaxation_coefficient", tracer.relaxation_coefficient},
+          {"relaxation_limit", tracer.relaxation_limit},
+          {"displacement_excludes",
+           {{"above_cohesive_zone", tracer.displacement_excludes.above_cohesive_zone}, {"boxes", boxes}}}};
 }
 
 Json initial_json(const Initial& initial) {
@@ -143,7 +169,7 @@ Json resolved_json(const Campaign& campaign) {
   json["initial"] = initial_json(campaign.initial);
   const auto& charging = campaign.charging;
   json["charging"] = {{"stock_line", charging.stock_line},
-                      {"layers", charging.layers},
+                      {"layers", layers_json(charging)},
                       {"temperature", charging.temperature},
                       {"hopper_height", charging.hopper_height}};
   json["raceways"] = raceways_json(campaign.raceways);

@@ -62,7 +62,7 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
         campaign.tracer.clean_field
             ? fmt::format("{} smoothing passes and a projection", campaign.tracer.smoothing_passes)
             : "tracer.clean_field is off");
-  const bool random = campaign.tracer.displacement == TracerSettings::Displacement::random;
+  const bool random = campaign.tracer.displacement != TracerSettings::Displacement::none;
   piece("random displacement of tracers", random,
         random ? "tracer.displacement" : "the cleaned field keeps the packing by itself");
   return pieces;

@@ -57,6 +57,21 @@ TEST(ResolvedCampaign, KeepsEveryBit) {
   EXPECT_EQ(again.dem.time_step, campaign.dem.time_step);
 }
 
+TEST(ResolvedCampaign, KeepsRingsAndTheStopOfTheTracerStage) {
+  const auto campaign = read(test::spoilt(
+      "{ore: 600 kg}]}",
+      "{ore: 600 kg, ring: [20 cm, 1 m]}]}\n"
+      "tracer: {accuracy: 2 %, duration: 2 h, stop: {when: steady}, displacement: random-and-relaxation, "
+      "displacement_excludes: {above_cohesive_zone: false, boxes: [{x: [-1, 1], y: [0, 0.1], z: [2, 3]}]}}"));
+  EXPECT_FALSE(campaign.charging.ring_of(0));
+  ASSERT_TRUE(campaign.charging.ring_of(1));
+  EXPECT_DOUBLE_EQ((*campaign.charging.ring_of(1))[0], 0.2);
+  EXPECT_DOUBLE_EQ(campaign.tracer.longest(), 7200);  // the duration, where at_most is not given
+  EXPECT_DOUBLE_EQ(campaign.tracer.remaining_change, 0.02);
+  EXPECT_DOUBLE_EQ(campaign.tracer.displacement_excludes.boxes[0][1][2], 3);
+  EXPECT_EQ(resolved_json(read(resolved_yaml(campaign))), resolved_json(campaign));
+}
+
 TEST(ResolvedCampaign, KeepsTheOrderOfSpecies) {
   auto campaign = read(test::base_campaign);
   std::swap(campaign.species[0], campaign.species[1]);
