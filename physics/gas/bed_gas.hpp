@@ -76,15 +76,17 @@ struct SolidsExchange {
   std::vector<double> conductance_temperature;  ///< W
 };
 
-/// Steady gas energy: div(G cp T) = div(k_eff grad T) + exchange - wall loss, upwind; inlets at their total
-/// temperature, zero gradient at the outlet (also where gas flows back).  T is the total temperature: kinetic energy
+/// Steady gas energy: div(G cp T) = div(k_eff grad T) + exchange - wall loss, upwind; along its way through a cell the
+/// gas approaches what it exchanges with exponentially (second order); inlets at their total temperature, zero gradient
+/// at the outlet (also where gas flows back).  T is the total temperature: kinetic energy
 /// inside the bed is left out. Wall loss h (T - T_wall) A on the wall faces.  The linear system is solved until the
 /// balance closes to 1e-11 of what comes in.
 class GasEnergy {
  public:
   GasEnergy(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign);
   ~GasEnergy();
-  /// @return gas temperature, all cells (also kept for the next warm start)
+  /// @return gas temperature, all cells: the mean in the cell, which the solids feel (also kept for the next warm
+  /// start)
   /// @throws Failure diverged (names the cell), also for a cell without gas
   const std::vector<double>& solve(const DarcyForchheimer& flow, const BedState& bed, const SolidsExchange& exchange);
   [[nodiscard]] const std::vector<double>& temperature() const;

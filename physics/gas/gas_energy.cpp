@@ -20,6 +20,8 @@ constexpr double reference_temperature = 293;
 /// The balance closes to this share of what comes in.
 constexpr double balance_tolerance = 1e-11;
 constexpr double acceptable_balance = 1e-8;
+/// Beyond this many transfer units the gas leaves a cell within a thousandth of what it exchanges with.
+constexpr double most_transfer_units = 7;
 
 }  // namespace
 
@@ -77,13 +79,10 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
     conductivity[cell] = gas_conductivity_syamlal_gidaspow(std::min(1.0, bed.void_fraction[cell]), state.conductivity);
   }
 
-  // The unknown is the temperature above the reference.
-  CellCoefficients coefficients{exchange.conductance, std::vector<double>(mesh.faces(), 0),
+  // The unknown is the temperature above the reference with which the gas leaves a cell.
+  CellCoefficients coefficients{std::vector<double>(mesh.cells(), 0), std::vector<double>(mesh.faces(), 0),
                                 std::vector<double>(mesh.internal_faces(), 0), false};
-  std::vector<double> source(mesh.cells());
-  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-    source[cell] = exchange.conductance_temperature[cell] - exchange.conductance[cell] * reference_temperature;
-  }
+  std::vector<double> source(mesh.cells(), 0);
   // What the gas brings into a cell counts against the cell's own temperature, so that every off-diagonal coefficient
   // is an inflow, no temperature can leave the range of its neighbours', and gas flowing back through the outlet has
   // the cell's own temperature.
@@ -101,9 +100,16 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
       coefficients.diagonal[neighbour] += coefficients.neighbour_row[face];
     }
   }
-  GasEnergy::Ledger ledger;
+  // What the gas of a cell exchanges heat with, solids and wall: conductance, and conductance x temperature.
+  std::vector<double> partners = exchange.conductance;
+  std::vector<double> partners_temperature(mesh.cells());
   double exchanged = 0;
-  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) exchanged += std::abs(source[cell]);
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    partners_temperature[cell] =
+        exchange.conductance_temperature[cell] - exchange.conductance[cell] * reference_temperature;
+    exchanged += std::abs(partners_temperature[cell]);
+  }
+  GasEnergy::Ledger ledger;
   for (const auto& patch : mesh.patches) {
     for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) {
       const auto owner = mesh.face_owner[face];
@@ -114,10 +120,23 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
         ledger.blast += carried * state.inlet_temperature[face];
       } else if (patch.kind == BedMesh::PatchKind::wall && state.heat_loss) {
         const double loss = state.heat_loss->coefficient * geometry.area[face];
-        coefficients.diagonal[owner] += loss;
-        source[owner] += loss * (state.heat_loss->ambient - reference_temperature);
+        partners[owner] += loss;
+        partners_temperature[owner] += loss * (state.heat_loss->ambient - reference_temperature);
       }
     }
+  }
+  // Gas that meets partners of one temperature leaves with T_out - T_p = (T_in - T_p) exp(-n), and what it gives is
+  // C (exp(n) - 1)(T_out - T_p): the partners' conductance, seen from the outgoing gas, is stretched by (exp(n) - 1)/n.
+  std::vector<double> stretch(mesh.cells(), 1);
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    if (!(partners[cell] > 0)) continue;
+    const double carried = coefficients.diagonal[cell];
+    if (carried > 0) {
+      const double units = std::min(partners[cell] / carried, most_transfer_units);
+      stretch[cell] = std::max(1.0, carried * std::expm1(units) / partners[cell]);
+    }
+    coefficients.diagonal[cell] += stretch[cell] * partners[cell];
+    source[cell] += stretch[cell] * partners_temperature[cell];
   }
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     if (!(coefficients.diagonal[cell] > 0))
@@ -130,16 +149,23 @@ const std::vector<double>& GasEnergy::solve(const DarcyForchheimer& flow, const 
   state.equation.solve("gas temperature", coefficients, source, temperature, balance_tolerance * scale,
                        acceptable_balance * scale);
 
+  // From here on `temperature` is the mean that the partners felt; the gas leaves with `leaving`.
+  const std::vector<double> leaving = temperature;
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    if (!(partners[cell] > 0)) continue;
+    const double partner = partners_temperature[cell] / partners[cell];
+    temperature[cell] = partner + stretch[cell] * (leaving[cell] - partner);
+  }
   double outflow = 0;
   for (const auto& patch : mesh.patches) {
     for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) {
-      const double value = temperature[mesh.face_owner[face]];
+      const auto owner = mesh.face_owner[face];
       if (patch.kind == BedMesh::PatchKind::outlet) {
-        ledger.top_gas += state.gas.heat_capacity * face_flux[face] * value;
+        ledger.top_gas += state.gas.heat_capacity * face_flux[face] * leaving[owner];
         outflow += state.gas.heat_capacity * face_flux[face];
       } else if (patch.kind == BedMesh::PatchKind::wall && state.heat_loss) {
         ledger.walls += state.heat_loss->coefficient * geometry.area[face] *
-                        (value + reference_temperature - state.heat_loss->ambient);
+                        (temperature[owner] + reference_temperature - state.heat_loss->ambient);
       }
     }
   }

@@ -100,20 +100,12 @@ TEST(TracerCounterCurrent, MarchedProfileIsTheExactExponential) {
   const double gas_flow = mass_flux * air.heat_capacity;
   const double solids_flow = campaign.descent_rate * packing * pebble.density * pebble.heat_capacity;
   const double exact = exchange * (1 / solids_flow - 1 / gas_flow);
-  EXPECT_NEAR(slope, exact, 0.04 * exact);
-  // The gas is upwind on cells of height dz, the tracers are not: of the difference to the exact slope this much is
-  // known,
-  //   D(i) - D(i-1) = -ha dz/Cg D(i) + ha dz/Cs (D(i) + D(i-1))/2.
-  const double dz = 0.025;
-  const double in_gas = exchange * dz / gas_flow;
-  const double in_solids = exchange * dz / solids_flow;
-  const double upwind = std::log((1 + in_solids / 2) / (1 + in_gas - in_solids / 2)) / dz;
-  EXPECT_NEAR(slope, upwind, 0.015 * upwind);
-  // What one gives the other takes, between two faces; the upwind gas there is that of the cell below.
-  const auto solids_at_face = [&](std::size_t k) { return 0.5 * (solids_mean[k] + solids_mean[k + 1]); };
-  EXPECT_NEAR(gas_flow * (gas_mean[first] - gas_mean[last]),
-              solids_flow * (solids_at_face(first) - solids_at_face(last)),
-              0.02 * gas_flow * (gas_mean[first] - gas_mean[last]));
+  // The density of tracers fluctuates, and with it the exchange.
+  EXPECT_NEAR(slope, exact, 0.01 * exact);
+  // What one gives the other takes, between two faces, where the means of the cells meet.
+  const auto at_face = [](const std::vector<double>& mean, std::size_t k) { return 0.5 * (mean[k] + mean[k + 1]); };
+  const double given = gas_flow * (at_face(gas_mean, first) - at_face(gas_mean, last));
+  EXPECT_NEAR(given, solids_flow * (at_face(solids_mean, first) - at_face(solids_mean, last)), 0.02 * given);
   EXPECT_LT(result.summary()["ledger"]["energy"]["residual"].get<double>(), 1e-9);
 }
 

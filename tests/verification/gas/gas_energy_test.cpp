@@ -23,45 +23,57 @@ Campaign exchanger(double cell) {
   return campaign;
 }
 
-/// Solids of one temperature with `transfer_units` in the whole bed.
-SolidsExchange solids(const BedMesh& mesh, const Campaign& campaign, double transfer_units) {
+/// Solids with `transfer_units` in the whole bed, whose temperature rises by `slope` (K/m) above that of the bottom.
+SolidsExchange solids(const BedMesh& mesh, const Campaign& campaign, double transfer_units, double slope = 0) {
   const auto& gas = *campaign.scene.gas;
   const double whole = transfer_units * gas.inlets[0].mass_flow * gas.heat_capacity;
   double volume = 0;
   for (const double v : mesh.cell_volume) volume += v;
   SolidsExchange exchange;
-  for (const double v : mesh.cell_volume) {
-    exchange.conductance.push_back(whole * v / volume);
-    exchange.conductance_temperature.push_back(whole * v / volume * solids_temperature);
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    const double conductance = whole * mesh.cell_volume[cell] / volume;
+    exchange.conductance.push_back(conductance);
+    exchange.conductance_temperature.push_back(conductance * (solids_temperature + slope * mesh.cell_centre[cell][2]));
   }
   return exchange;
 }
 
-double top_temperature(double cell, double transfer_units) {
+double top_temperature(double cell, double transfer_units, double slope = 0) {
   const Campaign campaign = exchanger(cell);
   FoamScene scene(campaign);
   DarcyForchheimer flow(scene.foam, scene.mesh, campaign);
   GasEnergy energy(scene.foam, scene.mesh, campaign);
   const auto bed = uniform_bed(scene.mesh, 0.42, 0.03);
   flow.solve(bed, energy.temperature(), 1e-9, 50);
-  energy.solve(flow, bed, solids(scene.mesh, campaign, transfer_units));
+  energy.solve(flow, bed, solids(scene.mesh, campaign, transfer_units, slope));
   EXPECT_LT(std::abs(energy.ledger().residual), 1e-10);
   return energy.ledger().top_gas_temperature;
 }
 
-TEST(GasEnergy, ExchangeIsTheUpwindSolutionAndTendsToTheExponential) {
-  const double units = 1.5;
-  const double exact = solids_temperature + (inlet_temperature - solids_temperature) * std::exp(-units);
-  std::vector<double> errors;
-  for (const int rows : {15, 30}) {
-    const double found = top_temperature(1.5 / rows, units);
-    const double upwind = solids_temperature + (inlet_temperature - solids_temperature) *
-                                                   std::pow(1 + units / rows, -static_cast<double>(rows));
-    EXPECT_NEAR(found, upwind, 1e-7);
-    errors.push_back(std::abs(found - exact));
+TEST(GasEnergy, ExchangeWithSolidsOfOneTemperatureIsTheExactExponentialOnAnyMesh) {
+  for (const double units : {0.01, 1.5, 40.0}) {
+    const double exact = solids_temperature + (inlet_temperature - solids_temperature) * std::exp(-units);
+    for (const int rows : {15, 30}) EXPECT_NEAR(top_temperature(1.5 / rows, units), exact, 1e-6) << units;
   }
-  // First order in the cell's height.
-  EXPECT_NEAR(errors[0] / errors[1], 2, 0.1);
+}
+
+TEST(GasEnergy, ExchangeWithSolidsThatVaryIsSecondOrder) {
+  // dT/dY = a + b Y - T over Y in [0, units].
+  const double units = 6;
+  const double slope = -300;
+  const double b = slope * 1.5 / units;
+  const double exact =
+      solids_temperature + b * units - b + (inlet_temperature - solids_temperature + b) * std::exp(-units);
+  const double coarse = std::abs(top_temperature(1.5 / 15, units, slope) - exact);
+  const double fine = std::abs(top_temperature(1.5 / 30, units, slope) - exact);
+  EXPECT_LT(coarse, 2);
+  EXPECT_GT(std::log2(coarse / fine), 1.9);
+}
+
+TEST(GasEnergy, ManyTransferUnitsACellLeaveTheGasWithTheSolids) {
+  for (const double units : {1e3, 1e6, 1e12}) {
+    EXPECT_NEAR(top_temperature(0.1, units), solids_temperature, 1e-6) << units;
+  }
 }
 
 TEST(GasEnergy, WallLossIsExactAndInTheLedger) {
@@ -79,7 +91,7 @@ TEST(GasEnergy, WallLossIsExactAndInTheLedger) {
   energy.solve(flow, bed, solids(scene.mesh, campaign, 0));
   const auto& gas = *campaign.scene.gas;
   const double per_row = 200 * 2 * 0.4 * 0.1 / (gas.inlets[0].mass_flow * gas.heat_capacity);
-  EXPECT_NEAR(energy.ledger().top_gas_temperature, 300 + (inlet_temperature - 300) * std::pow(1 + per_row, -15), 1e-6);
+  EXPECT_NEAR(energy.ledger().top_gas_temperature, 300 + (inlet_temperature - 300) * std::exp(-15 * per_row), 1e-6);
   EXPECT_GT(energy.ledger().walls, 0.05 * energy.ledger().blast);
   EXPECT_EQ(energy.ledger().to_solids, 0);
   EXPECT_LT(std::abs(energy.ledger().residual), 1e-10);
