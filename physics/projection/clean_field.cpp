@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/equations/cell_equation.hpp"
 #include "physics/equations/cell_failure.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/mesh/cell_locator.hpp"
+#include "physics/projection/bed_projection.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
@@ -26,7 +26,7 @@ double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
 class Cleaning {
  public:
   Cleaning(const BedMesh& bed_mesh, const RawGranularField& raw_field)
-      : mesh(bed_mesh), raw(raw_field), geometry(bed_mesh) {
+      : mesh(bed_mesh), raw(raw_field), geometry(bed_mesh), faces(mesh, geometry, raw.bed) {
     sink.resize(mesh.cells());
     double total = 0;
     for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
@@ -56,7 +56,7 @@ class Cleaning {
       for (std::size_t face = 0; face < mesh.faces(); ++face) {
         const auto owner = mesh.face_owner[face];
         const auto neighbour = mesh.face_neighbour[face];
-        if (!inside(face)) continue;
+        if (!faces.inside(face)) continue;
         const double volume = std::min(mesh.cell_volume[owner], mesh.cell_volume[neighbour]) / 12;
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double moved = volume * (before[neighbour][axis] - before[owner][axis]);
@@ -88,34 +88,21 @@ class Cleaning {
   /// Fluxes through faces: linear interpolation inside, nothing through walls, the total sink through the stock plane.
   void interpolate(const std::vector<Vector3>& field) {
     face_flux.assign(mesh.faces(), 0);
-    std::vector<std::size_t> plane;
-    double inflow = 0, plane_area = 0;
+    std::vector<double> inflow(mesh.faces(), 0.0);
     for (std::size_t face = 0; face < mesh.faces(); ++face) {
       const auto owner = mesh.face_owner[face];
-      if (inside(face)) {
+      if (faces.inside(face)) {
         const double before = geometry.owner_distance[face], beyond = geometry.neighbour_distance[face];
         const Vector3& here = field[owner];
         const Vector3& there = field[mesh.face_neighbour[face]];
         face_flux[face] =
             (beyond * dot(here, mesh.face_area[face]) + before * dot(there, mesh.face_area[face])) / (before + beyond);
-      } else if (in_stock_plane(face)) {
-        const bool owner_in_bed = raw.bed[owner];
-        const auto cell = owner_in_bed ? owner : mesh.face_neighbour[face];
-        const double into = (owner_in_bed ? -1 : 1) * dot(field[cell], mesh.face_area[face]);
-        face_flux[face] = std::max(0.0, into);
-        inflow += face_flux[face];
-        plane_area += geometry.area[face];
-        plane.push_back(face);
+      } else if (faces.in_stock_plane(face)) {
+        const auto cell = faces.cell_below(face);
+        inflow[face] = std::max(0.0, (cell == owner ? -1 : 1) * dot(field[cell], mesh.face_area[face]));
       }
     }
-    if (plane.empty())
-      throw Failure(ExitCode::wrong_input, "no face of the mesh lies in the stock plane")
-          .at("key", "charging.stock_line");
-    for (const auto face : plane) {
-      const double share = inflow > 0 ? face_flux[face] / inflow : geometry.area[face] / plane_area;
-      const double out_of_owner = raw.bed[mesh.face_owner[face]] ? -1 : 1;
-      face_flux[face] = out_of_owner * share * total_sink;
-    }
+    faces.set_inflow(total_sink, inflow, face_flux);
   }
 
   /// The smallest correction, weighted with 1/speed, that makes div = -sink.
@@ -127,48 +114,14 @@ class Cleaning {
       volume += mesh.cell_volume[cell];
     }
     mean_speed /= volume;
-    const auto mobility = [&](std::int64_t cell) {
-      return mean_speed > 0 ? magnitude(flux[cell]) / mean_speed + least_relative_speed : 1;
-    };
-
-    CellCoefficients coefficients{std::vector<double>(mesh.cells(), 0), std::vector<double>(mesh.faces(), 0),
-                                  std::vector<double>(mesh.internal_faces(), 0), true};
-    for (std::size_t face = 0; face < mesh.faces(); ++face) {
-      if (!inside(face)) continue;
-      const auto owner = mesh.face_owner[face];
-      const auto neighbour = mesh.face_neighbour[face];
-      const double conductance = geometry.area[face] / (geometry.owner_distance[face] / mobility(owner) +
-                                                        geometry.neighbour_distance[face] / mobility(neighbour));
-      coefficients.owner_row[face] = conductance;
-      coefficients.diagonal[owner] += conductance;
-      if (face < mesh.internal_faces()) {
-        coefficients.neighbour_row[face] = conductance;
-        coefficients.diagonal[neighbour] += conductance;
-      }
-    }
+    std::vector<double> mobility(mesh.cells(), 1);
+    for (std::size_t cell = 0; cell < mesh.cells() && mean_speed > 0; ++cell)
+      mobility[cell] = magnitude(flux[cell]) / mean_speed + least_relative_speed;
     // Where nothing is removed, the field's own fluxes are the scale.
     double scale = flux_scale;
     for (const double value : face_flux) scale = std::max(scale, std::abs(value));
-    auto source = FaceGeometry::outflow(mesh, face_flux);
-    bool reference_set = false;
-    for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-      source[cell] = raw.bed[cell] ? -(source[cell] + sink[cell]) : 0;
-      if (!raw.bed[cell]) coefficients.diagonal[cell] = 1;
-      // The potential is known up to a constant only: it is 0 in the first cell of the bed.
-      if (raw.bed[cell] && !reference_set) {
-        coefficients.diagonal[cell] *= 2;
-        reference_set = true;
-      }
-    }
-    std::vector<double> potential(mesh.cells(), 0);
-    CellEquation equation(foam, mesh);
-    equation.solve("projection of the granular field", coefficients, source, potential, projection_tolerance * scale,
-                   acceptable_projection * scale);
-    for (std::size_t face = 0; face < mesh.faces(); ++face) {
-      if (!inside(face)) continue;
-      face_flux[face] +=
-          coefficients.owner_row[face] * (potential[mesh.face_owner[face]] - potential[mesh.face_neighbour[face]]);
-    }
+    BedProjection(foam, mesh, geometry, raw.bed)
+        .project(mobility, sink, projection_tolerance * scale, acceptable_projection * scale, face_flux);
   }
 
   /// rms of (div q + sink) over rms of |q|/cell size.
@@ -204,27 +157,10 @@ class Cleaning {
   std::vector<double> face_flux;  ///< m3/s out of the owner
 
  private:
-  /// Between two cells of the bed.
-  [[nodiscard]] bool inside(std::size_t face) const {
-    const auto neighbour = mesh.face_neighbour[face];
-    return neighbour >= 0 && raw.bed[mesh.face_owner[face]] && raw.bed[neighbour];
-  }
-
-  /// Between bed and freeboard, or the outlet where the bed fills the mesh; facing up or down.
-  [[nodiscard]] bool in_stock_plane(std::size_t face) const {
-    const auto neighbour = mesh.face_neighbour[face];
-    const bool owner_in_bed = raw.bed[mesh.face_owner[face]];
-    if (std::abs(geometry.normal[face][2]) < 0.5) return false;
-    if (neighbour >= 0) return owner_in_bed != raw.bed[neighbour];
-    const auto* outlet = mesh.find_patch("outlet");
-    const auto number = static_cast<std::int64_t>(face);
-    return owner_in_bed && outlet != nullptr && number >= outlet->first_face &&
-           number < outlet->first_face + outlet->faces;
-  }
-
   const BedMesh& mesh;
   const RawGranularField& raw;
   FaceGeometry geometry;
+  BedFaces faces;
   std::vector<double> sink;  ///< m3/s a cell
   double total_sink = 0;     ///< m3/s
   double flux_scale = 0;     ///< m3/s, sum of the sinks' magnitudes
