@@ -208,8 +208,23 @@ struct Converged {
   int at_most = 8;                     ///< episodes
 };
 
+/// Each stage is a job of a Slurm cluster.
+struct SlurmLaunch {
+  enum class Starter { mpirun, srun };
+  double time = 0;                    ///< s, limit of a job
+  double checkpoint_before = 0;       ///< s before the limit, when the stage is asked for its checkpoint
+  std::string partition;              ///< empty: the cluster's default
+  std::string account;                ///< empty: the user's default
+  std::string qos;                    ///< empty: the user's default
+  int nodes = 0;                      ///< 0: as Slurm places the ranks
+  Starter starter = Starter::mpirun;  ///< of the ranks in a job
+  std::vector<std::string> options;   ///< further ones of sbatch
+  std::vector<std::string> setup;     ///< shell lines before the stage
+};
+
 struct Launch {
-  int ranks = 1;
+  int ranks = 1;                     ///< of each stage, here or in `slurm`
+  std::optional<SlurmLaunch> slurm;  ///< none: on this machine
 };
 
 struct Campaign {

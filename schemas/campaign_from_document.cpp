@@ -14,7 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double bulk_packing = 0.55;  // of a charged layer, for its thickness
+constexpr double bulk_packing = 0.55;            // of a charged layer, for its thickness
+constexpr double longest_checkpoint_wait = 600;  // s before a job's limit
 
 /// A section of the document; reading leaves the default where a key is absent and NaN where its number is no number.
 class Section {
@@ -61,6 +62,11 @@ class Section {
   void read(const std::string& key, std::string& value) const {
     const auto* found = find(key);
     if (found != nullptr && found->is_string()) value = found->get<std::string>();
+  }
+  void read(const std::string& key, std::vector<std::string>& value) const {
+    const auto* found = find(key);
+    if (found == nullptr || !found->is_array()) return;
+    for (const auto& item : *found) value.push_back(item.is_string() ? item.get<std::string>() : "");
   }
   void read(const std::string& key, std::array<double, 2>& value) const {
     value = {unknown, unknown};
@@ -306,6 +312,26 @@ TracerSettings read_tracer(const Section& section, bool gas) {
   return tracer;
 }
 
+Launch read_launch(const Section& section) {
+  Launch launch;
+  section.read("ranks", launch.ranks);
+  const auto cluster = section.section("slurm");
+  if (!cluster.present()) return launch;
+  SlurmLaunch& slurm = launch.slurm.emplace();
+  cluster.read("ranks", launch.ranks);
+  cluster.need("time", slurm.time);
+  slurm.checkpoint_before = std::fmin(longest_checkpoint_wait, slurm.time / 4);
+  cluster.read("checkpoint_before", slurm.checkpoint_before);
+  cluster.read("partition", slurm.partition);
+  cluster.read("account", slurm.account);
+  cluster.read("qos", slurm.qos);
+  cluster.read("nodes", slurm.nodes);
+  cluster.read("starter", slurm.starter, words::slurm_starter);
+  cluster.read("options", slurm.options);
+  cluster.read("setup", slurm.setup);
+  return launch;
+}
+
 /// Height of the thickest layer in the throat, m; NaN where it cannot be known.
 double thickest_layer(const Campaign& campaign) {
   if (campaign.scene.geometry.profile.size() < 2) return unknown;
@@ -372,7 +398,7 @@ Campaign campaign_from_document(const YamlDocument& document) {
   converged.read("granular_velocity", campaign.converged.granular_velocity_sigma);
   converged.read("for", campaign.converged.for_episodes);
   converged.read("at_most", campaign.converged.at_most);
-  root.section("launch").read("ranks", campaign.launch.ranks);
+  campaign.launch = read_launch(root.section("launch"));
   if (const auto* seed = root.find("random_seed"); seed != nullptr && seed->is_number_integer()) {
     campaign.random_seed = seed->get<std::uint64_t>();
   }

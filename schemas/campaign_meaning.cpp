@@ -179,6 +179,7 @@ void check_meaning(const Campaign& campaign, YamlDocument& document) {
   meaning::check_charging(context);
   meaning::check_raceways(context);
   meaning::check_stages(context);
+  meaning::check_launch(context);
 }
 
 }  // namespace cupola

@@ -37,5 +37,6 @@ struct Context {
 void check_contacts(Context& context);
 void check_gas(Context& context);
 void check_charging(Context& context);
+void check_launch(Context& context);
 
 }  // namespace cupola::meaning

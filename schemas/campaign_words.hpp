@@ -36,6 +36,8 @@ inline constexpr Table<TracerSettings::Stop, 2> tracer_stop{
     {{TracerSettings::Stop::duration, "duration"}, {TracerSettings::Stop::steady, "steady"}}};
 inline constexpr Table<TracerSettings::Resolve, 2> tracer_resolve{
     {{TracerSettings::Resolve::automatic, "auto"}, {TracerSettings::Resolve::every_step, "every-step"}}};
+inline constexpr Table<SlurmLaunch::Starter, 2> slurm_starter{
+    {{SlurmLaunch::Starter::mpirun, "mpirun"}, {SlurmLaunch::Starter::srun, "srun"}}};
 inline constexpr Table<Strategy, 1> strategy{{{Strategy::march, "march"}}};
 
 template <typename Enum, std::size_t count>

@@ -158,6 +158,20 @@ Json initial_json(const Initial& initial) {
   return json;
 }
 
+Json launch_json(const Launch& launch) {
+  if (!launch.slurm) return {{"ranks", launch.ranks}};
+  const SlurmLaunch& slurm = *launch.slurm;
+  Json json{{"ranks", launch.ranks}, {"time", slurm.time}, {"checkpoint_before", slurm.checkpoint_before}};
+  if (!slurm.partition.empty()) json["partition"] = slurm.partition;
+  if (!slurm.account.empty()) json["account"] = slurm.account;
+  if (!slurm.qos.empty()) json["qos"] = slurm.qos;
+  if (slurm.nodes > 0) json["nodes"] = slurm.nodes;
+  json["starter"] = word(words::slurm_starter, slurm.starter);
+  if (!slurm.options.empty()) json["options"] = slurm.options;
+  if (!slurm.setup.empty()) json["setup"] = slurm.setup;
+  return {{"slurm", json}};
+}
+
 }  // namespace
 
 Json resolved_json(const Campaign& campaign) {
@@ -182,7 +196,7 @@ Json resolved_json(const Campaign& campaign) {
                        {"granular_velocity", campaign.converged.granular_velocity_sigma},
                        {"for", campaign.converged.for_episodes},
                        {"at_most", campaign.converged.at_most}};
-  json["launch"] = {{"ranks", campaign.launch.ranks}};
+  json["launch"] = launch_json(campaign.launch);
   json["random_seed"] = campaign.random_seed;
   return json;
 }
