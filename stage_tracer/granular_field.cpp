@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/closures/softening.hpp"
 #include "physics/projection/bed_state.hpp"
 #include "schemas/failure.hpp"
 
@@ -74,9 +73,8 @@ std::vector<double> persistent_share(const BedMesh& mesh, const Campaign& campai
   }
   if (softening == nullptr) return share;
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    double degree = ore_temperature.empty() ? 0 : softening_degree(ore_temperature[c], *softening);
-    if (mesh.cell_centre[c][2] < none_below) degree = 1;
-    share[c] = charged_share + (1 - charged_share) * degree;
+    const bool molten = !ore_temperature.empty() && ore_temperature[c] >= softening->melted;
+    if (molten || mesh.cell_centre[c][2] < none_below) share[c] = 1;
   }
   return share;
 }
