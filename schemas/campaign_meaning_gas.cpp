@@ -93,6 +93,14 @@ void check_gas(Context& context) {
     context.add("scene.gas.species", "`{}` is not a known gas (air, nitrogen, blast){}: expected one, or also its {}",
                 gas.species, suggestion(gas.species, {"air", "nitrogen", "blast"}), fmt::join(missing, ", "));
   }
+  constexpr double molar_gas_constant = 8.314462618;  // J/mol/K
+  const double least_heat_capacity = molar_gas_constant / gas.molar_mass;
+  if (gas.heat_capacity <= least_heat_capacity) {
+    context.add("scene.gas.heat_capacity",
+                "{} J/kg/K at constant pressure is not possible for an ideal gas of {} kg/mol: it must exceed the gas "
+                "constant, {:.4g} J/kg/K",
+                gas.heat_capacity, gas.molar_mass, least_heat_capacity);
+  }
   for (std::size_t i = 0; i < gas.inlets.size(); ++i) check_inlet(context, i);
 }
 

@@ -280,12 +280,10 @@ std::vector<DarcyForchheimer::NamedInlet> DarcyForchheimer::inlets() const {
   std::vector<NamedInlet> result;
   for (const auto& inlet : state.gas.inlets) {
     const auto& patch = *state.mesh.find_patch(inlet.name);
-    const double patch_area = state.patch_area(patch);
-    // The mesh may know a small tuyere only as a larger face: its gas is as fast as the opening makes it.
-    const double opening = inlet.side == Inlet::Side::bottom ? patch_area : inlet.size[0] * inlet.size[1];
+    const double opening = state.patch_area(patch);
     double pressure = 0;
     for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) {
-      pressure += state.face_pressure[face] * state.geometry.area[face] / patch_area;
+      pressure += state.face_pressure[face] * state.geometry.area[face] / opening;
     }
     result.push_back({inlet.name,
                       inlet_state(inlet.mass_flow, inlet.total_temperature, opening, pressure, state.gas.molar_mass,
