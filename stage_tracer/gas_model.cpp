@@ -25,7 +25,12 @@ GasModel::GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign
     : campaign_(campaign),
       flow_(foam, mesh, campaign),
       energy_(campaign.heat ? std::make_unique<GasEnergy>(foam, mesh, campaign) : nullptr),
-      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {}
+      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {
+  if (campaign.tracer.gas == TracerSettings::GasModel::navier_stokes) {
+    throw Failure(ExitCode::wrong_input, "tracer.gas: navier-stokes is not there yet; write darcy-forchheimer")
+        .at("key", "tracer.gas");
+  }
+}
 
 void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
   temperature_ = std::move(first_guess);

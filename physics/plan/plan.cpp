@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "physics/plan/expected_parcels.hpp"
+#include "physics/plan/inlet_flows.hpp"
 #include "physics/plan/inlet_limit.hpp"
 #include "physics/plan/physics_pieces.hpp"
 #include "schemas/failure.hpp"
@@ -125,14 +126,21 @@ void judge_bed(const Campaign& campaign, Plan& plan) {
 
 }  // namespace
 
-Plan make_plan(const Campaign& campaign) {
+Plan make_plan(const Campaign& asked) {
   Plan plan;
+  plan.charge = charge_of(asked);
+  const auto flowing = with_mass_flows(asked, plan.charge);
+  if (!flowing) {
+    plan.refusals.push_back(
+        "scene.gas.inlets: no steady flow has the velocities or pressures asked for: the mass flow grows with the "
+        "pressure without limit; give mass_flow instead, or less gas");
+  }
+  const Campaign& campaign = flowing ? *flowing : asked;
   plan.campaign = campaign.name;
   plan.stock_line = campaign.charging.stock_line;
   plan.mesh = mesh_plan(campaign);
   plan.bed_volume = slot_volume(campaign, campaign.bottom(), campaign.charging.stock_line);
   plan.hopper_top = campaign.hopper_top();
-  plan.charge = charge_of(campaign);
   plan.dem_speed_up = dem_speed_up(campaign, plan.charge);
   plan.dem_step = dem_time_step(campaign);
   plan.physics = physics_pieces(campaign);

@@ -98,7 +98,7 @@ TEST(TracerCounterCurrent, MarchedProfileIsTheExactExponential) {
                                              gas_conductivity(air.viscosity, air.heat_capacity, air.prandtl), 1.0);
   const double exchange = h * 6 * packing / pebble.diameter;
   const double gas_flow = mass_flux * air.heat_capacity;
-  const double solids_flow = campaign.descent_rate * packing * pebble.density * pebble.heat_capacity;
+  const double solids_flow = campaign.descent_rate * packing * pebble.density * pebble.heat_capacity.at(293);
   const double exact = exchange * (1 / solids_flow - 1 / gas_flow);
   // The density of tracers fluctuates, and with it the exchange.
   EXPECT_NEAR(slope, exact, 0.01 * exact);
