@@ -87,16 +87,9 @@ const std::vector<Mistake> mistakes{
     {"inlet without flow", "mass_flow: 1.4 kg/s, ", "", {R"(8:9: scene.gas.inlets[0]: one of the keys mass_flow, velocity and pressure is missing: expected a mass flow (like 1.4 kg/s))"}},
     {"inlet with two flows", "mass_flow: 1.4 kg/s", "mass_flow: 1.4 kg/s, velocity: 200 m/s", {R"(8:97: scene.gas.inlets[0].velocity: an inlet states one of mass_flow, velocity and pressure, but here stand mass_flow and velocity)"}},
     {"inlet below the outlet's pressure", "mass_flow: 1.4 kg/s", "pressure: 0.9 bar", {R"(8:76: scene.gas.inlets[0].pressure: no gas flows in at 90000 Pa against 100000 Pa at the outlet)"}},
-    {"sutherland of a strange gas", "species: blast", "species: argon
-    molar_mass: 40 g/mol
-    heat_capacity: 520
-    viscosity: 2e-5
-    prandtl: 0.67
-    viscosity_model: sutherland", {R"(6:5: scene.gas: this gas needs the key `sutherland`)"}},
-    {"janaf ranges out of order", "species: blast", "species: blast
-    janaf: {from: 300, common: 200, to: 1000, low: [1, 0, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:12: scene.gas.janaf: expected from < common < to, but these are 300, 200 and 1000 K)"}},
-    {"janaf of six coefficients", "species: blast", "species: blast
-    janaf: {from: 200, common: 1000, to: 6000, low: [1, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:53: scene.gas.janaf.low: expected a list of 7, but it has 6 (The seven coefficients of the lower range.))"}},
+    {"sutherland of a strange gas", "species: blast", "species: argon\n    molar_mass: 40 g/mol\n    heat_capacity: 520\n    viscosity: 2e-5\n    prandtl: 0.67\n    viscosity_model: sutherland", {R"(6:5: scene.gas: this gas needs the key `sutherland`)"}},
+    {"janaf ranges out of order", "species: blast", "species: blast\n    janaf: {from: 300, common: 200, to: 1000, low: [1, 0, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:12: scene.gas.janaf: expected from < common < to, but these are 300, 200 and 1000 K)"}},
+    {"janaf of six coefficients", "species: blast", "species: blast\n    janaf: {from: 200, common: 1000, to: 6000, low: [1, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:53: scene.gas.janaf.low: expected a list of 7, but it has 6 (The seven coefficients of the lower range.))"}},
     {"table of a wrong unit", "heat_capacity: 850", "heat_capacity: [[300 K, 800 J/kg/K], [1000 K, 2 W/m/K]]", {R"(10:107: species.coke.heat_capacity[1][1]: expected a specific heat capacity (like 850 J/kg/K), but `2 W/m/K` is a heat conductivity)"}},
     {"table that falls", "heat_capacity: 850", "heat_capacity: [[300, 800], [200, 900]]", {R"(10:88: species.coke.heat_capacity[1]: temperatures must rise from row to row, but 200 K follows 300 K)"}},
     {"table of one row", "heat_capacity: 850", "heat_capacity: [[300, 800]]", {R"(10:75: species.coke.heat_capacity: expected a list of at least 2, but it has 1 (Heat capacity: a number, or a table of rows [temperature, heat capacity].))"}},
