@@ -14,6 +14,7 @@ namespace cupola {
 struct MarchOptions {
   std::optional<int> at_most;        ///< episodes, instead of the campaign's limit
   std::optional<int> until_episode;  ///< leaves after this one; the campaign is not over then
+  bool one_stage = false;            ///< leaves after the next stage that it has brought to its end
 };
 
 /// Called whenever there is something new to show: `report`.

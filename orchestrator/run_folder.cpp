@@ -5,11 +5,11 @@
 
 #include <set>
 
+#include "orchestrator/built_with.hpp"
 #include "orchestrator/campaign_difference.hpp"
 #include "orchestrator/child_process.hpp"
 #include "schemas/campaign_reader.hpp"
 #include "schemas/resolved_campaign.hpp"
-#include "schemas/version.hpp"
 
 namespace cupola {
 namespace {
@@ -89,7 +89,7 @@ void freeze(const fs::path& folder, const std::string& text, const Campaign& cam
                                                     {"campaign", campaign.name},
                                                     {"campaign_hash", hash_text(text)},
                                                     {"resolved_hash", hash_text(resolved)},
-                                                    {"versions", {{"cupola", program_version}}},
+                                                    {"versions", program_versions()},
                                                     {"host", host_name()},
                                                     {"started", utc_now()}});
 }

@@ -61,6 +61,10 @@ std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
   for (;;) {
     const StageState state = stage_state(run_.path(), run_.journal().records(), place.episode, place.kind);
     place.attempt = state.attempt;
+    if (const auto end = jobs_.find_again(place)) {
+      if (!judge_job(place, *end, patience)) return std::nullopt;
+      continue;
+    }
     if (state.condition == Condition::finished) {
       accept(place, state);
       return state.folder;
@@ -168,14 +172,15 @@ bool StageRunner::run_attempt(const StagePlace& place, const std::map<std::strin
   ensure_task(task, stage_task(place.kind, place.episode, campaign_with_advice(), run_.campaign_hash(), inputs, task));
   // What an earlier start complained of (a full disk, say) is in the journal; this start may do better.
   std::filesystem::remove(task / "failure.json");
+  const Launch& launch = run_.campaign().launch;
+  if (launch.slurm && !in_allocation_for(launch.ranks)) return judge_job(place, jobs_.run(place), patience);
   if (!was_prepared(run_.journal().records(), place, task)) {
     const int status = run_to_end(place, launcher_.prepare(place.kind, task), "stage-preparing", false);
     if (status != 0) return judge_end(place, status, patience);
     run_.journal().append("stage-prepared", about(place));
     if (signals_.stop_requests() > 0) return false;
   }
-  const int status =
-      run_to_end(place, launcher_.run(place.kind, task, run_.campaign().launch.ranks), "stage-started", true);
+  const int status = run_to_end(place, launcher_.run(place.kind, task, launch), "stage-started", true);
   return judge_end(place, status, patience);
 }
 
@@ -236,6 +241,33 @@ bool StageRunner::judge_end(const StagePlace& place, int status, Patience& patie
                         status));
   // The other ranks may still be on their way out.
   for (int tenths = 0; tenths < 50 && FolderLock::holder(task); ++tenths) std::this_thread::sleep_for(100ms);
+  return true;
+}
+
+bool StageRunner::judge_job(const StagePlace& place, const JobEnd& end, Patience& patience) {
+  const std::filesystem::path task = folder(place);
+  if (has_manifest(task)) return true;
+  if (const auto failure = read_failure(task)) return judge_end(place, failure->value("code", 0), patience);
+  json content = about(place);
+  content["why"] = end.sentence;
+  if (end.by_hand || signals_.stop_requests() > 0) {
+    run_.journal().append("stage-stopped", content);
+    if (end.by_hand) view_.say(end.sentence + " by hand");
+    return false;
+  }
+  if (!end.cut_off) return judge_end(place, end.status.value_or(-1), patience);
+  run_.journal().append("stage-stopped", content);
+  const auto progress = read_progress(task);
+  const long step = progress ? progress->step : -1;
+  patience.idle_jobs = step > patience.last_step ? 0 : patience.idle_jobs + 1;
+  patience.last_step = std::max(step, patience.last_step);
+  constexpr int most_idle_jobs = 3;
+  if (patience.idle_jobs >= most_idle_jobs)
+    throw Failure(ExitCode::stopped,
+                  fmt::format("{}: {} jobs on end got no further ({}). Give launch.slurm.time more, or see {}. "
+                              "`cupola resume` tries again.",
+                              name_of(place), most_idle_jobs, end.sentence, (task / "stage.log").string()));
+  view_.say(fmt::format("{}: cut off by the cluster; the next job goes on from its checkpoint", end.sentence));
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "orchestrator/launch/slurm_stage.hpp"
 #include "orchestrator/progress_view.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/signal_watch.hpp"
@@ -25,7 +26,7 @@ class StageRunner {
  public:
   /// All are kept by reference.
   StageRunner(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view)
-      : run_(run), launcher_(launcher), signals_(signals), view_(view) {}
+      : run_(run), launcher_(launcher), signals_(signals), view_(view), jobs_(run, launcher, signals, view) {}
 
   /// @param inputs files by the names of `Task::inputs`
   /// @return the finished task folder; none: stopped on request, with what is there left to go on from
@@ -35,9 +36,11 @@ class StageRunner {
 
  private:
   struct Patience {
-    int starts = 0;   ///< of the stage by this orchestrator
-    int retries = 0;  ///< attempts begun after one that went bad
-    int deaths = 0;   ///< ends without a word
+    int starts = 0;       ///< of the stage by this orchestrator
+    int retries = 0;      ///< attempts begun after one that went bad
+    int deaths = 0;       ///< ends without a word
+    int idle_jobs = 0;    ///< jobs on end that the cluster cut off before they came any further
+    long last_step = -1;  ///< of the last job that was cut off
   };
 
   void accept(const StagePlace& place, const StageState& state);
@@ -50,6 +53,8 @@ class StageRunner {
   int run_to_end(const StagePlace& place, const Command& command, const std::string& event, bool stoppable);
   /// @return false where it was stopped
   bool judge_end(const StagePlace& place, int status, Patience& patience);
+  /// The same for a stage that was a job of Slurm.
+  bool judge_job(const StagePlace& place, const JobEnd& end, Patience& patience);
   [[nodiscard]] Campaign campaign_with_advice() const;
   [[nodiscard]] nlohmann::json about(const StagePlace& place) const;
   [[nodiscard]] std::filesystem::path folder(const StagePlace& place) const;
@@ -58,6 +63,7 @@ class StageRunner {
   const StageLauncher& launcher_;
   SignalWatch& signals_;
   ProgressView& view_;
+  SlurmStage jobs_;
 };
 
 }  // namespace cupola
