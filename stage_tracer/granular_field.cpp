@@ -47,11 +47,14 @@ double packing_near_stock(const BedMesh& mesh, const Campaign& campaign, const s
   }
   double volume = 0;
   double solids = 0;
-  for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    const double z = mesh.cell_centre[c][2];
-    if (!bed[c] || z < lower || z > upper) continue;
-    volume += mesh.cell_volume[c];
-    solids += mesh.cell_volume[c] * solids_fraction[c];
+  // Layers may be thinner than cells: the band is widened downwards until it holds some.
+  for (; volume == 0 && lower > 2 * campaign.bottom() - stock; lower -= 0.02 * (stock - campaign.bottom())) {
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      const double z = mesh.cell_centre[c][2];
+      if (!bed[c] || z < lower || z > upper) continue;
+      volume += mesh.cell_volume[c];
+      solids += mesh.cell_volume[c] * solids_fraction[c];
+    }
   }
   if (!(solids > 0)) {
     throw Failure(ExitCode::wrong_input,
