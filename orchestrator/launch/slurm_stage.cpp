@@ -53,9 +53,12 @@ JobEnd end_of(const std::string& job, const JobState& state) {
   return end;
 }
 
-std::string waiting_text(const std::string& job, const JobState& state) {
-  if (state.phase == Phase::unreachable) return fmt::format("job {} · Slurm does not answer ({})", job, state.reason);
-  return fmt::format("job {} waits ({}{})", job, state.reason,
+std::string waiting_line(const StagePlace& place, const std::filesystem::path& task, const std::string& job,
+                         const JobState& state) {
+  if (state.phase == Phase::unreachable)
+    return fmt::format("{} · job {} · Slurm does not answer ({})", progress_line(place, read_progress(task)), job,
+                       state.reason);
+  return fmt::format("{} · job {} waits ({}{})", progress_line(place, std::nullopt), job, state.reason,
                      state.restarts > 0 ? fmt::format(", put back {} times", state.restarts) : "");
 }
 
@@ -129,7 +132,7 @@ JobEnd SlurmStage::follow(const StagePlace& place, const std::string& job) {
       return end;
     }
     view_.show(state.phase == Phase::running ? progress_line(place, read_progress(task)) + " · job " + job
-                                             : progress_line(place, std::nullopt) + " · " + waiting_text(job, state));
+                                             : waiting_line(place, task, job, state));
     if (const int asked = signals_.stop_requests(); asked > passed_on && state.phase != Phase::unreachable) {
       view_.say(state.phase == Phase::running ? "stopping: the stage ends its block and writes a checkpoint"
                                               : "stopping: the job is taken out of the queue");

@@ -79,10 +79,18 @@ EOF
 }
 
 stop_slurm() {
-  local file
+  local file process ended=()
   [[ -n ${SLURM_CONF:-} ]] && scancel --quiet --user="$(id -un)" 2> /dev/null
   for file in "${slurm_folder:-/nonexistent}"/{slurmd,slurmctld}.pid "${munge_folder:-/nonexistent}/munged.pid"; do
-    [[ -f $file ]] && kill "$(cat "$file")" 2> /dev/null
+    [[ -f $file ]] || continue
+    process=$(cat "$file")
+    kill "$process" 2> /dev/null && ended+=("$process")
+  done
+  for process in "${ended[@]}"; do
+    for ((tenths = 0; tenths < 100; ++tenths)); do
+      kill -0 "$process" 2> /dev/null || break
+      sleep 0.1
+    done
   done
   [[ -n ${munge_folder:-} ]] && rm -rf "$munge_folder"
 }

@@ -4,9 +4,10 @@ import { readFileSync } from 'node:fs';
 
 const [fileA, fileB, toleranceText, otherKeys] = process.argv.slice(2);
 const tolerance = Number(toleranceText ?? 0);
-// The hash of a result is among it: its summary holds wall times.
+// The hash of a result is among it: its summary holds wall times; so is everything that is said about where a run was made.
 const ofTheDay = new Set([
   'wall_seconds', 'wall_seconds_by_part', 'wall_time', 'started', 'file_written', 'file_hash', 'host', 'run_folder',
+  'provenance',
   ...(otherKeys ?? '').split(','),
 ]);
 const differences = [];
