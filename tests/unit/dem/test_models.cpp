@@ -9,6 +9,7 @@
 #include "physics/plan/charge.hpp"
 #include "physics/plan/dem_time_step.hpp"
 #include "schemas/failure.hpp"
+#include "stage_dem/batch_charging.hpp"
 #include "stage_dem/bed_watch.hpp"
 #include "stage_dem/dem_limits.hpp"
 #include "stage_dem/parcels.hpp"
@@ -134,6 +135,34 @@ TEST(Raceways, KeepTheirVoidAndTakeNoMore) {
   EXPECT_GE(solids(), 0.2);
   EXPECT_EQ(removal.starved_seconds(), 0);
   EXPECT_NEAR(books.residual(parcels), 0, 1e-14);
+}
+
+TEST(Charging, ALayerWithARingIsPouredThereOnly) {
+  Campaign campaign = box_campaign(1, 0.6, 1.5);
+  campaign.charging.stock_line = 1.0;
+  campaign.charging.hopper_height = 1.5;
+  campaign.charging.layers = {{{"ore", 12.0}}, {{"coke", 6.0}}};
+  campaign.charging.rings = {std::array<double, 2>{0.7, 1.0}, std::nullopt};
+  BatchCharging charging(campaign);
+  std::vector<Parcel> bed;
+  std::int64_t next_id = 1;
+  double time = 0;
+  const auto batch = [&](int species) {
+    std::vector<Parcel> poured;
+    for (int turn = 0; turn < 100; ++turn, time += 1)
+      for (const auto& parcel : charging.pour(bed, 0.9, time, 1, next_id))
+        if (parcel.species == species) poured.push_back(parcel);
+    return poured;
+  };
+  double nearest = 1, farthest = 0, coke_nearest = 1;
+  for (const auto& parcel : batch(1)) {
+    nearest = std::min(nearest, std::abs(parcel.position[0]));
+    farthest = std::max(farthest, std::abs(parcel.position[0]));
+  }
+  EXPECT_GE(nearest, 0.7);
+  EXPECT_GT(farthest, 0.9);
+  for (const auto& parcel : batch(0)) coke_nearest = std::min(coke_nearest, std::abs(parcel.position[0]));
+  EXPECT_LT(coke_nearest, 0.2);
 }
 
 TEST(WallOverlap, IsThatOfTheNearestWallOfASlot) {
