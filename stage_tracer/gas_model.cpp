@@ -77,7 +77,7 @@ std::vector<double> GasModel::resistance(const BedState& bed) const {
     const double speed = flux.empty() ? 0 : std::hypot(flux[c][0], flux[c][1], flux[c][2]);
     result[c] = bed.void_fraction[c] < 1
                     ? temperature_[c] * drag_resistance(campaign_.drag, bed.void_fraction[c], bed.grain_diameter[c],
-                                                        gas.viscosity, 1.0, speed, bed.polydispersity[c])
+                                                        gas.viscosity, 1.0, speed, bed.drag_factor[c])
                     : 0;
   }
   return result;
