@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/plan/small_linear_system.hpp"
 
@@ -12,13 +11,6 @@ namespace {
 constexpr double regularity = 1e-9;
 
 }  // namespace
-
-void Anderson::forget() {
-  last_x_.clear();
-  last_residual_.clear();
-  x_steps_.clear();
-  residual_steps_.clear();
-}
 
 std::vector<double> Anderson::next(const std::vector<double>& x, const std::vector<double>& residual) {
   const std::size_t n = x.size();
@@ -44,8 +36,10 @@ std::vector<double> Anderson::next(const std::vector<double>& x, const std::vect
   if (steps == 0) return result;
   // Normal equations, scaled to a unit diagonal and kept regular by a little added to it: what that loses in accuracy
   // the next step makes good.
-  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  const auto product = [this](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += weight_[i] * a[i] * b[i];
+    return sum;
   };
   std::vector<double> length(steps);
   for (std::size_t i = 0; i < steps; ++i)

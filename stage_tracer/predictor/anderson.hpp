@@ -8,14 +8,15 @@ namespace cupola {
 /// last ones whose residuals combine to the smallest.
 class Anderson {
  public:
-  explicit Anderson(std::size_t depth) : depth_(depth) {}
+  /// @param weight of each unknown in the residual's norm
+  Anderson(std::size_t depth, std::vector<double> weight) : depth_(depth), weight_(std::move(weight)) {}
 
   /// @return the next x
   std::vector<double> next(const std::vector<double>& x, const std::vector<double>& residual);
-  void forget();
 
  private:
   std::size_t depth_;
+  std::vector<double> weight_;
   std::vector<double> last_x_, last_residual_;
   std::deque<std::vector<double>> x_steps_, residual_steps_;
 };

@@ -15,27 +15,32 @@ namespace {
 
 /// On streamlines that will move again, the temperatures need not be much better than the last move.
 constexpr double inner_over_outer = 0.2;
-constexpr int most_evaluations = 12;
+constexpr int most_evaluations = 6;
 constexpr double flow_tolerance = 1e-4;
 /// How far the granular field follows the zone: all the way, and less each time the change has hardly fallen.
 constexpr double slow_decrease = 0.8;
 constexpr double shorten = 0.7;
 constexpr double least_follow = 0.15;
 
-/// rms over the bed of what changed, K, weighted with the cells' volumes.
-double change_of(const BedMesh& mesh, const std::vector<bool>& bed, const BedTemperatures& now,
-                 const BedTemperatures& before) {
+/// rms over the bed of what changed, K: the gas weighted with the cells' volumes, species with their shares of the
+/// solids.
+double change_of(const BedMesh& mesh, const std::vector<bool>& bed, const CellContents& contents,
+                 const BedTemperatures& now, const BedTemperatures& before) {
   double sum = 0;
   double weight = 0;
-  const auto add = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    for (std::size_t c = 0; c < a.size(); ++c) {
-      if (!bed[c]) continue;
-      sum += mesh.cell_volume[c] * (a[c] - b[c]) * (a[c] - b[c]);
-      weight += mesh.cell_volume[c];
-    }
+  const auto add = [&](double volume, double difference) {
+    sum += volume * difference * difference;
+    weight += volume;
   };
-  add(now.gas, before.gas);
-  for (std::size_t s = 0; s < now.solids.size(); ++s) add(now.solids[s], before.solids[s]);
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    if (!bed[c]) continue;
+    add(mesh.cell_volume[c], now.gas[c] - before.gas[c]);
+    double solids = 0;
+    for (const auto& volume : contents.volume) solids += volume[c];
+    for (std::size_t s = 0; s < now.solids.size() && solids > 0; ++s) {
+      add(mesh.cell_volume[c] * contents.volume[s][c] / solids, now.solids[s][c] - before.solids[s][c]);
+    }
+  }
   return weight > 0 ? std::sqrt(sum / weight) : 0;
 }
 
@@ -132,7 +137,7 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
     check_raceways();
     const std::vector<double> found = ore_temperature();
     // A step cut short makes the change look smaller than what is left.
-    record.change = change_of(mesh_, field().bed, temperatures_, before) / follow;
+    record.change = change_of(mesh_, field().bed, solids_.contents, temperatures_, before) / follow;
     if (iteration > 0 && record.change > slow_decrease * outcome.iterations.back().change)
       follow = std::max(least_follow, shorten * follow);
     for (std::size_t c = 0; c < ore.size(); ++c) ore[c] += follow * (found[c] - ore[c]);

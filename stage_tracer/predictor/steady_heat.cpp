@@ -1,9 +1,6 @@
 #include "stage_tracer/predictor/steady_heat.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "stage_tracer/bed_composition.hpp"
@@ -27,6 +24,16 @@ std::vector<double> flat(const BedTemperatures& t) {
     for (std::size_t s = 0; s + 1 < fields; ++s) x[c * fields + s + 1] = t.solids[s][c];
   }
   return x;
+}
+
+double rms(const std::vector<double>& values, const std::vector<double>& weights) {
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += weights[i] * values[i] * values[i];
+    weight += weights[i];
+  }
+  return weight > 0 ? std::sqrt(sum / weight) : 0;
 }
 
 void unfold(const std::vector<double>& x, BedTemperatures& t) {
@@ -77,7 +84,10 @@ class SteadyHeat::Evaluation {
     BedTemperatures result{gas_.temperature(), contents_.temperature};
     for (std::size_t s = 0; s < result.solids.size(); ++s) {
       for (std::size_t c = 0; c < result.gas.size(); ++c) {
-        if (!(contents_.volume[s][c] > 0)) result.solids[s][c] = around.felt[s][c];
+        if (contents_.volume[s][c] > 0) continue;
+        // Where a species is not, its temperature means nothing; this one joins smoothly to where it melts away.
+        const auto& softening = campaign_.species[s].softening;
+        result.solids[s][c] = softening ? std::min(around.felt[s][c], softening->melted) : around.felt[s][c];
       }
     }
     return result;
@@ -140,20 +150,19 @@ class SteadyHeat::Evaluation {
 
   [[nodiscard]] const SolidsOnLines& solids() const { return solids_; }
 
-  /// rms over the bed's cells and present species, K, weighted with the cells' volumes.
-  [[nodiscard]] double rms(const std::vector<double>& difference) const {
+  /// Weights of the unknowns: the gas of a cell counts with the cell's volume, a species with its share of the solids.
+  [[nodiscard]] std::vector<double> weights() const {
     const std::size_t fields = 1 + contents_.volume.size();
-    double sum = 0;
-    double weight = 0;
+    std::vector<double> result(mesh_.cells() * fields, 0.0);
     for (std::size_t c = 0; c < mesh_.cells(); ++c) {
       if (!bed_.field.bed[c]) continue;
-      for (std::size_t i = 0; i < fields; ++i) {
-        if (i > 0 && !(contents_.volume[i - 1][c] > 0)) continue;
-        sum += mesh_.cell_volume[c] * difference[c * fields + i] * difference[c * fields + i];
-        weight += mesh_.cell_volume[c];
-      }
+      double solids = 0;
+      for (const auto& volume : contents_.volume) solids += volume[c];
+      result[c * fields] = mesh_.cell_volume[c];
+      for (std::size_t i = 1; i < fields && solids > 0; ++i)
+        result[c * fields + i] = mesh_.cell_volume[c] * contents_.volume[i - 1][c] / solids;
     }
-    return weight > 0 ? std::sqrt(sum / weight) : 0;
+    return result;
   }
 
  private:
@@ -287,7 +296,7 @@ class SteadyHeat::Evaluation {
 SteadyHeat::Result SteadyHeat::solve(const Bed& bed, GasModel& gas, CellContents contents,
                                      BedTemperatures& temperatures, double tolerance, int most_evaluations) {
   Evaluation equations(*this, bed, gas, std::move(contents));
-  Anderson acceleration(anderson_depth);
+  std::optional<Anderson> acceleration;
   std::optional<CounterFlowMatrix> matrix;
   Result result;
   std::vector<double> x = flat(temperatures);
@@ -295,17 +304,16 @@ SteadyHeat::Result SteadyHeat::solve(const Bed& bed, GasModel& gas, CellContents
     unfold(x, temperatures);
     const std::vector<double> there = flat(equations.evaluate(temperatures));
     ++result.evaluations;
-    if (!matrix) matrix = equations.linearise();
+    if (!matrix) {
+      matrix = equations.linearise();
+      acceleration.emplace(anderson_depth, equations.weights());
+    }
     std::vector<double> difference(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) difference[i] = there[i] - x[i];
     std::vector<double> correction;
-    const auto solution =
-        matrix->solve(equations.right_side(difference), correction, linear_reduction, linear_iterations);
-    result.correction = equations.rms(correction);
-    spdlog::debug("evaluation {}: difference {:.4g} K, correction {:.4g} K ({} linear iterations, {:.2g})",
-                  result.evaluations, equations.rms(difference), result.correction, solution.iterations,
-                  solution.reduction);
-    x = acceleration.next(x, correction);
+    matrix->solve(equations.right_side(difference), correction, linear_reduction, linear_iterations);
+    result.correction = rms(correction, equations.weights());
+    x = acceleration->next(x, correction);
     for (double& value : x) value = std::clamp(value, equations.coldest, equations.hottest);
     if (result.correction < tolerance) break;
   }
