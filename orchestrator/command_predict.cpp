@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "orchestrator/commands.hpp"
+#include "orchestrator/go_on.hpp"
 #include "orchestrator/prediction.hpp"
 #include "orchestrator/report/report.hpp"
 #include "orchestrator/stage_launcher.hpp"

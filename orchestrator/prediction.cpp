@@ -6,6 +6,7 @@
 
 #include "orchestrator/stage_task.hpp"
 #include "schemas/failure.hpp"
+#include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 
 namespace cupola {
@@ -46,13 +47,27 @@ bool has_prediction(const std::filesystem::path& run) {
   return std::filesystem::exists(prediction_folder(run) / "manifest.json");
 }
 
+std::optional<std::filesystem::path> usable_prediction(const std::filesystem::path& run) {
+  if (!has_prediction(run)) return std::nullopt;
+  const std::filesystem::path file = prediction_folder(run) / "result.hdf";
+  const nlohmann::json summary = FieldFile(file, "tracer-result").summary();
+  if (!summary.value(nlohmann::json::json_pointer("/prediction/converged"), false)) return std::nullopt;
+  return file;
+}
+
 bool finish_prediction(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals) {
   if (has_prediction(run.path())) return true;
+  if (std::filesystem::exists(run.path() / "episodes")) {
+    throw Failure(ExitCode::wrong_input,
+                  fmt::format("{}: the campaign has begun there without a prediction; predict in another folder "
+                              "(--run-dir)",
+                              run.path().string()));
+  }
   const std::filesystem::path task = prediction_folder(run.path());
   ensure_task(task, stage_task(TaskKind::predict, 0, run.campaign(), run.campaign_hash(), {}, task));
   std::filesystem::remove(task / "failure.json");
   return run_to_end(launcher.prepare(TaskKind::predict, task), task, signals) &&
-         run_to_end(launcher.run(TaskKind::predict, task, run.campaign().launch.ranks), task, signals);
+         run_to_end(launcher.run(TaskKind::predict, task, run.campaign().launch), task, signals);
 }
 
 }  // namespace cupola

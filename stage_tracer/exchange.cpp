@@ -15,7 +15,6 @@ void Exchange::set_rates(const std::vector<Vector3>& mass_flux, double step) {
   const double conductivity = gas_conductivity(gas.viscosity, gas.heat_capacity, gas.prandtl);
   const std::size_t cells = mass_flux.size();
   coefficient_.assign(campaign_.species.size(), std::vector<double>(cells));
-  rate_ = coefficient_;
   decay_ = coefficient_;
   mean_decay_ = coefficient_;
   for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
@@ -29,8 +28,7 @@ void Exchange::set_rates(const std::vector<Vector3>& mass_flux, double step) {
     kernel_.gather(felt);
     const double factor = 6 / (species.diameter * species.density * species.heat_capacity.at(enthalpy_zero));
     for (std::size_t c = 0; c < cells; ++c) {
-      rate_[s][c] = factor * felt[c];
-      const double x = rate_[s][c] * step;
+      const double x = factor * felt[c] * step;
       decay_[s][c] = std::exp(-x);
       mean_decay_[s][c] = mean_decay(x);
     }

@@ -30,9 +30,6 @@ class Exchange {
   /// Heat transfer coefficient h, W/m2/K, [species][cell].
   [[nodiscard]] const BySpecies& coefficient() const { return coefficient_; }
 
-  /// k, 1/s, [species][cell].
-  [[nodiscard]] const BySpecies& rate() const { return rate_; }
-
   /// exp(-k dt), [species][cell].
   [[nodiscard]] const BySpecies& decay() const { return decay_; }
 
@@ -43,7 +40,6 @@ class Exchange {
   const Campaign& campaign_;
   const CellSpreading& kernel_;
   BySpecies coefficient_;  ///< h, W/m2/K
-  BySpecies rate_;
   BySpecies decay_;
   BySpecies mean_decay_;
 };

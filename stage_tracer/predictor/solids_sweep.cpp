@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "physics/closures/solid_enthalpy.hpp"
 #include "stage_tracer/predictor/stay.hpp"
 
 namespace cupola {
@@ -54,6 +55,13 @@ SolidsSweep::SolidsSweep(const BedMesh& mesh, const Campaign& campaign, std::vec
     if (persistent_[s]) persistent += share_over_persistent_[s];
   }
   for (double& value : share_over_persistent_) value /= persistent;
+  double hottest = 0;
+  for (const Inlet& inlet : campaign.scene.gas->inlets) hottest = std::max(hottest, inlet.total_temperature);
+  for (const Species& species : campaign.species) {
+    const double from = campaign.charging.temperature;
+    const double to = species.softening ? species.softening->melted : hottest;
+    capacity_.push_back(species.density * (solid_enthalpy(species, to) - solid_enthalpy(species, from)) / (to - from));
+  }
 }
 
 SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vector<double>& storage,
@@ -72,7 +80,7 @@ SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vecto
       flux[s] = line.flux * share_over_persistent_[s];
       present[s] = flux[s] > 0;
       temperature[s] = charged_at;
-      tally.enter(flux[s] * campaign_.species[s].density, enthalpy(campaign_.species[s], flux[s], charged_at));
+      tally.enter(flux[s] * campaign_.species[s].density, capacity_[s] * flux[s] * (charged_at - enthalpy_zero));
     }
     std::size_t before = no_cell;
     for (std::size_t i = line.first; i < line.end; ++i) {
@@ -90,9 +98,10 @@ SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vecto
       for (std::size_t s = 0; s < species; ++s) {
         if (!present[s]) continue;
         const Species& of = campaign_.species[s];
-        const double capacity = of.density * of.heat_capacity;
+        const double capacity = capacity_[s];
+        const auto heat = [&](double volume) { return capacity * volume * (temperature[s] - enthalpy_zero); };
         if (of.softening && mesh_.cell_centre[c][2] < of.none_below) {
-          tally.leave(Cause::unmelted, flux[s] * of.density, enthalpy(of, flux[s], temperature[s]));
+          tally.leave(Cause::unmelted, flux[s] * of.density, heat(flux[s]));
           present[s] = false;
           continue;
         }
@@ -108,16 +117,15 @@ SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vecto
         sums.heat(s, c) += volume * temperature[s] + excess;
         const double used_up = std::min(flux[s], removal * volume);
         if (used_up > 0) {
-          tally.leave(Cause::raceway, used_up * of.density,
-                      enthalpy(of, used_up, temperature[s]) + removal * excess * capacity);
+          tally.leave(Cause::raceway, used_up * of.density, heat(used_up) + removal * excess * capacity);
           if (persistent_[s]) sums.removed(c) += used_up;
         }
         const double entered = flux[s];
         flux[s] -= used_up;
         temperature[s] = course.temperature(lasts);
-        if (melted) tally.leave(Cause::melted, flux[s] * of.density, enthalpy(of, flux[s], temperature[s]));
+        if (melted) tally.leave(Cause::melted, flux[s] * of.density, heat(flux[s]));
         if (flux[s] <= least_survival * entered && !melted) {
-          if (flux[s] > 0) tally.leave(Cause::raceway, flux[s] * of.density, enthalpy(of, flux[s], temperature[s]));
+          if (flux[s] > 0) tally.leave(Cause::raceway, flux[s] * of.density, heat(flux[s]));
           flux[s] = 0;
         }
         present[s] = !melted && flux[s] > 0;
@@ -128,7 +136,7 @@ SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vecto
     for (std::size_t s = 0; s < species; ++s) {
       if (present[s])
         tally.leave(Cause::lost, flux[s] * campaign_.species[s].density,
-                    enthalpy(campaign_.species[s], flux[s], temperature[s]));
+                    capacity_[s] * flux[s] * (temperature[s] - enthalpy_zero));
     }
   }
   const std::vector<double> row = tally.row();

@@ -38,6 +38,10 @@ class SolidsSweep {
   /// Keeps references. @param share of each species in the charge's volume
   SolidsSweep(const BedMesh& mesh, const Campaign& campaign, std::vector<double> share);
 
+  /// Heat capacity of a volume of each species, J/m3/K: the mean from the charge's temperature to where the species
+  /// melts (or to the hottest blast), latent heat included, so that what a melted grain has taken up is right.
+  [[nodiscard]] const std::vector<double>& capacity() const { return capacity_; }
+
   /// @param storage f alpha_p, all cells   @param removal_rate 1/s, all cells (raceways)
   [[nodiscard]] SolidsOnLines operator()(const Streamlines& lines, const std::vector<double>& storage,
                                          const std::vector<double>& removal_rate,
@@ -48,6 +52,7 @@ class SolidsSweep {
   const Campaign& campaign_;
   std::vector<double> share_over_persistent_;
   std::vector<bool> persistent_;
+  std::vector<double> capacity_;
 };
 
 }  // namespace cupola

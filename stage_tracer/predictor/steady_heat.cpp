@@ -62,6 +62,11 @@ class SteadyHeat::Evaluation {
         filling_(share_of_persistent(campaign_, bed.field.charge)),
         contents_(std::move(contents)) {
     exchange_.set_rates(gas.flow().mass_flux(), 0);
+    rate_ = exchange_.coefficient();
+    for (std::size_t s = 0; s < rate_.size(); ++s) {
+      kernel_.gather(rate_[s]);
+      for (double& rate : rate_[s]) rate *= 6 / (campaign_.species[s].diameter * sweep_.capacity()[s]);
+    }
     coldest = hottest = campaign_.charging.temperature;
     if (campaign_.scene.heat_loss) coldest = std::min(coldest, campaign_.scene.heat_loss->ambient);
     for (const Inlet& inlet : campaign_.scene.gas->inlets) {
@@ -75,7 +80,7 @@ class SteadyHeat::Evaluation {
 
   /// @return what the temperatures would be in those of `from`
   BedTemperatures evaluate(const BedTemperatures& from) {
-    SolidsSurroundings around{exchange_.rate(), exchange_.felt_temperature(from.gas), conducted(from.solids)};
+    SolidsSurroundings around{rate_, exchange_.felt_temperature(from.gas), conducted(from.solids)};
     keep_in_range(around);
     solids_ = sweep_(bed_.lines, bed_.field.storage, bed_.field.removal_rate, around, sum_);
     rest_where_nothing_passes(around);
@@ -177,7 +182,7 @@ class SteadyHeat::Evaluation {
     const std::vector<double> inflow = network_inflow(conduction_.links(around, bed_.volume), flat_temperature);
     BySpecies source(temperature.size(), std::vector<double>(cells, 0.0));
     for (std::size_t s = 0; s < source.size(); ++s) {
-      const double heat = campaign_.species[s].density * campaign_.species[s].heat_capacity;
+      const double heat = sweep_.capacity()[s];
       for (std::size_t c = 0; c < cells; ++c) {
         if (around.volume[s][c] > 0) source[s][c] = inflow[s * cells + c] / (heat * around.volume[s][c]);
       }
@@ -285,6 +290,7 @@ class SteadyHeat::Evaluation {
   GasModel& gas_;
   Exchange exchange_;
   SolidsSweep sweep_;
+  BySpecies rate_;  ///< 1/s
   std::vector<double> filling_;
   CellContents contents_;
   SolidsOnLines solids_;
