@@ -19,6 +19,10 @@ ExitCode explain(const std::filesystem::path& campaign_file, bool as_json);
 ExitCode run(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder,
              const MarchOptions& options);
 
+/// `cupola predict CAMPAIGN`: the steady state without any stage, with a report (docs/predictor.md).
+/// @param folder as of `run`; the campaign can be run there afterwards
+ExitCode predict(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder);
+
 /// `cupola resume RUN`
 ExitCode resume(const std::filesystem::path& folder, const MarchOptions& options);
 

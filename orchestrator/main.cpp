@@ -80,6 +80,11 @@ int main(int argc, char** argv) {
   with_json(explain);
   explain->callback([&] { command = [&] { return cupola::explain(campaign, as_json); }; });
 
+  CLI::App* predict =
+      with_campaign(app.add_subcommand("predict", "Predict the steady state in a minute, without running any stage"));
+  predict->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
+  predict->callback([&] { command = [&] { return cupola::predict(campaign, run_folder); }; });
+
   CLI::App* run = with_campaign(app.add_subcommand("run", "Run a campaign, or go on with its run folder"));
   run->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
   with_limits(run);

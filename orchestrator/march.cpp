@@ -8,6 +8,7 @@
 
 #include "orchestrator/convergence.hpp"
 #include "orchestrator/episode_judgement.hpp"
+#include "orchestrator/prediction.hpp"
 #include "orchestrator/stage_runner.hpp"
 
 namespace cupola {
@@ -16,18 +17,28 @@ namespace {
 using nlohmann::json;
 using Inputs = std::map<std::string, std::filesystem::path>;
 
-Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const Campaign& campaign) {
+/// Where a stage gets the temperatures from: the tracer stage before, or a prediction that the run begins with.
+void add_temperatures(Inputs& inputs, const std::vector<EpisodeFolders>& before, const RunFolder& run) {
+  if (!run.campaign().heat) return;
+  if (!before.empty()) {
+    inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  } else if (const auto guess = usable_prediction(run.path())) {
+    inputs["solids_temperature"] = *guess;
+  }
+}
+
+Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const RunFolder& run) {
   Inputs inputs;
+  add_temperatures(inputs, before, run);
   if (before.empty()) return inputs;
   inputs["packing"] = before.back().dem / "result.hdf";
-  if (campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
   return inputs;
 }
 
 Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::filesystem::path& dem,
-                     const Campaign& campaign) {
+                     const RunFolder& run) {
   Inputs inputs{{"granular", dem / "result.hdf"}};
-  if (!before.empty() && campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  add_temperatures(inputs, before, run);
   return inputs;
 }
 
@@ -77,12 +88,12 @@ class March {
   /// @return why it has not been finished; none: it has
   std::optional<std::string> finish_episode(int episode) {
     StagePlace place{episode, limit_, TaskKind::dem, 1};
-    const auto dem = stages_.finish(place, dem_inputs(finished_, run_.campaign()));
+    const auto dem = stages_.finish(place, dem_inputs(finished_, run_));
     if (!dem) return on_request;
     after_stage_();
     if (enough_for_once()) return after_one_stage;
     place.kind = TaskKind::tracer;
-    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_.campaign()));
+    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_));
     if (!tracer) return on_request;
     finished_.push_back({*dem, *tracer});
     return std::nullopt;

@@ -2,6 +2,16 @@
 
 namespace cupola {
 
+double kernel_diameter(const Campaign& campaign, const Charge& charge) {
+  double diameter = 0;
+  double share = 0;
+  for (std::size_t s = 0; s < campaign.species.size(); ++s) {
+    diameter += charge.volume_share[s] * campaign.species[s].parcel_diameter();
+    share += charge.volume_share[s];
+  }
+  return share > 0 ? diameter / share : campaign.species.front().parcel_diameter();
+}
+
 CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_t cells, bool heat,
                          const SumOverRanks& sum) {
   // One flat array, so that the ranks exchange one message: volumes, then volume x temperature.

@@ -11,6 +11,7 @@
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
 #include "schemas/version.hpp"
+#include "stage_tracer/predictor/predictor.hpp"
 #include "stage_tracer/tracer_stage.hpp"
 
 namespace {
@@ -19,8 +20,9 @@ using cupola::ExitCode;
 
 cupola::Task read_tracer_task(const std::filesystem::path& folder) {
   cupola::Task task = cupola::read_task(folder);
-  if (task.kind != cupola::TaskKind::tracer) {
-    throw cupola::Failure(ExitCode::wrong_input, "task.yaml: kind is not `tracer`; this folder is for another program");
+  if (task.kind == cupola::TaskKind::dem) {
+    throw cupola::Failure(ExitCode::wrong_input,
+                          "task.yaml: kind is neither `tracer` nor `predict`; this folder is for another program");
   }
   return task;
 }
@@ -41,6 +43,7 @@ int march(const std::filesystem::path& folder, int& argc, char**& argv) {
       std::optional<cupola::FolderLock> lock;
       if (foam.rank() == 0) lock.emplace(folder);
       cupola::open_stage_log(folder, foam.rank());
+      if (task.kind == cupola::TaskKind::predict) return cupola::predict(foam, folder, task);
       return cupola::TracerStage(foam, folder, task).run();
     }));
   });

@@ -231,6 +231,7 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
   file.cell_data("stagnant", std::vector<double>(outcome.field.stagnant.begin(), outcome.field.stagnant.end()));
   if (outcome.gas != nullptr) write_gas(file, campaign, *outcome.gas, summary);
   if (heat) write_temperatures(file, task, outcome, summary);
+  if (!outcome.prediction.is_null()) summary["prediction"] = outcome.prediction;
   write_tracers(file.hdf(), outcome, heat);
   file.summary(summary);
   file.commit();

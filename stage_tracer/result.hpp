@@ -48,6 +48,7 @@ struct MarchOutcome {
   double wall_seconds = 0;
   std::map<std::string, double> wall_seconds_by_part{};
   std::int64_t cells_at_floor = 0;
+  nlohmann::json prediction{};  ///< of a prediction: how it came about; null for a march
 };
 
 /// Writes `result.hdf` of the task folder as docs/contracts.md has it.

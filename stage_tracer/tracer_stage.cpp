@@ -55,17 +55,6 @@ std::unique_ptr<const ChargePlan> make_charge(const Campaign& campaign, const Gr
   return std::make_unique<const ChargePlan>(campaign, rate, charged_position(campaign, dem));
 }
 
-/// Diameter of the parcels that a tracer's volume is spread over: mean by the recipe's volume, or of all species.
-double kernel_diameter(const Campaign& campaign, const Charge& charge) {
-  double diameter = 0;
-  double share = 0;
-  for (std::size_t s = 0; s < campaign.species.size(); ++s) {
-    diameter += charge.volume_share[s] * campaign.species[s].parcel_diameter();
-    share += charge.volume_share[s];
-  }
-  return share > 0 ? diameter / share : campaign.species.front().parcel_diameter();
-}
-
 }  // namespace
 
 TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Task& task)

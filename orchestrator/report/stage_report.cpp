@@ -23,7 +23,9 @@ nlohmann::json summary_of_progress(const std::filesystem::path& folder) {
   return summary;
 }
 
-void read_result(StageReport& stage, const RunRecord& run) {
+}  // namespace
+
+void read_stage_result(StageReport& stage, const RunRecord& run) {
   try {
     verify_manifest(stage.state.folder);
     const FieldFile file(stage.result(), stage.kind == TaskKind::dem ? "dem-result" : "tracer-result");
@@ -39,8 +41,6 @@ void read_result(StageReport& stage, const RunRecord& run) {
     stage.sentence = failure.what();
   }
 }
-
-}  // namespace
 
 std::string StageReport::state_text() const {
   switch (state.condition) {
@@ -71,7 +71,7 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
   }
   stage.history = read_history(stage.state.folder);
   if (stage.state.condition == StageState::Condition::finished) {
-    read_result(stage, run);
+    read_stage_result(stage, run);
   } else {
     stage.summary = summary_of_progress(stage.state.folder);
     if (const auto failure = read_failure(stage.state.folder)) {
