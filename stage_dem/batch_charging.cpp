@@ -77,14 +77,20 @@ std::vector<Parcel> BatchCharging::pour(const std::vector<Parcel>& parcels, doub
   for (std::size_t species = 0; species < state_.owed.size(); ++species)
     volume += static_cast<double>(state_.owed[species]) * parcel_mass(campaign_.species[species]) /
               campaign_.species[species].density;
+  // The layer that is being charged was the one before the next.
+  const std::size_t layers = campaign_.charging.layers.size();
+  const auto ring = campaign_.charging.ring_of((static_cast<std::size_t>(state_.next_layer) + layers - 1) % layers);
+  const double half_width = campaign_.half_width(campaign_.charging.stock_line);
+  const auto in_ring = [&](double x) { return !ring || (std::abs(x) >= (*ring)[0] && std::abs(x) <= (*ring)[1]); };
   // No higher than the batch needs: a short fall disturbs the bed least.
-  const double area = 2 * campaign_.half_width(campaign_.charging.stock_line) * campaign_.scene.geometry.depth;
+  const double width = ring ? std::min((*ring)[1], half_width) - (*ring)[0] : half_width;
+  const double area = 2 * width * campaign_.scene.geometry.depth;
   const double to = std::min(campaign_.hopper_top(), from + 0.2 + volume / (loose_fraction * area));
   RandomNumbers random(seed, RandomNumbers::Use::charging, static_cast<std::uint64_t>(next_id));
   while (still_owed() > 0) {
     // A mixed batch is poured mixed: the species with the largest number still to come first.
     const auto species = std::max_element(state_.owed.begin(), state_.owed.end()) - state_.owed.begin();
-    const auto choose = [&](double) { return static_cast<int>(species); };
+    const auto choose = [&](double x) { return in_ring(x) ? static_cast<int>(species) : -1; };
     const double radius = campaign_.species[static_cast<std::size_t>(species)].parcel_diameter() / 2;
     if (!pouring.place(from + radius, to - radius, next_id, choose, random, 200)) break;
     state_.falling.insert(next_id++);
