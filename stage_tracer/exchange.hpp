@@ -40,6 +40,7 @@ class Exchange {
   const Campaign& campaign_;
   const CellSpreading& kernel_;
   BySpecies coefficient_;  ///< h, W/m2/K
+  BySpecies felt_;         ///< h as a tracer in the cell feels it, W/m2/K
   BySpecies decay_;
   BySpecies mean_decay_;
 };

@@ -49,6 +49,10 @@ void GasModel::solve_flow_tightly(const BedState& bed) {
 }
 
 void GasModel::follow(const BedState& bed) {
+  if (campaign_.tracer.resolve == TracerSettings::Resolve::every_step) {
+    solve_flow_tightly(bed);
+    return;
+  }
   const std::vector<double> now = resistance(bed);
   double difference = 0;
   double norm = 0;

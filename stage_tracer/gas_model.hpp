@@ -28,7 +28,7 @@ class GasModel {
   }
 
   /// Solves the flow again where ||R - R_last||/||R_last|| exceeds the threshold, R = T r(|G|) being the resistance of
-  /// each cell to the mass flux; nothing otherwise.
+  /// each cell to the mass flux; nothing otherwise.  With `tracer.resolve: every-step` always, and tightly.
   void follow(const BedState& bed);
 
   /// Steady gas energy with what the solids exchange in this step.

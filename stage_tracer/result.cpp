@@ -205,6 +205,7 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       {"process_seconds", outcome.process_seconds},
       {"wall_seconds", outcome.wall_seconds},
       {"wall_seconds_by_part", outcome.wall_seconds_by_part},
+      {"imbalance", {{"motion", outcome.motion_imbalance}}},
       {"time_step", outcome.time_step},
       {"steps", outcome.steps},
       {"flow_solves", 0},
@@ -221,6 +222,20 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       {"averaged_seconds", outcome.averages.seconds()},
       {"ledger", outcome.ledger.to_json(heat)},
       {"clamps", {{"void_fraction_cells", outcome.cells_at_floor}}}};
+
+  if (outcome.step_error)
+    summary["accuracy"] = {{"asked", campaign.tracer.accuracy}, {"time_step_error", *outcome.step_error}};
+  if (outcome.until_steady) {
+    summary["steady"] = {{"asked", campaign.tracer.remaining_change},
+                         {"reached", outcome.process_seconds < campaign.tracer.longest() * (1 - 1e-9)},
+                         {"remaining_change", nullptr},
+                         {"windows", outcome.windows}};
+    if (outcome.remaining) {
+      summary["steady"]["remaining_change"] = outcome.remaining->change;
+      summary["steady"]["ratio"] = outcome.remaining->ratio;
+    }
+  }
+  if (outcome.held_back) summary["displacements_held_back"] = *outcome.held_back;
 
   const BySpecies volume = outcome.averages.volume();
   const BySpecies share = volume_shares({volume, {}}, share_of_persistent(campaign, outcome.field.charge));
