@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
 #include "orchestrator/progress_view.hpp"
 #include "orchestrator/quantity_text.hpp"
@@ -81,17 +82,10 @@ void describe_rest(const RunRecord& run, json& status) {
 /// The job of the present stage, or of a chain, that the journal has not seen end, as Slurm sees it where it can be
 /// asked.
 json present_job(const RunRecord& run) {
-  std::string job;
-  std::string chain;
-  for (const json& record : run.journal) {
-    const std::string event = record.value("event", "");
-    if (event == "job-submitted") job = record.value("job", "");
-    if (event == "job-ended") job.clear();
-    if (event == "chain-submitted") chain = record.value("name", "");
-    if (event == "chain-ended") chain.clear();
-  }
-  if (job.empty() && !chain.empty()) {
-    const auto links = SlurmQueue::unfinished(chain);
+  const OpenJobs open = open_jobs(run.journal);
+  std::string job = open.job;
+  if (job.empty() && !open.chain.empty()) {
+    const auto links = SlurmQueue::unfinished(open.chain);
     if (links && !links->empty()) job = links->front();
   }
   if (job.empty()) return nullptr;

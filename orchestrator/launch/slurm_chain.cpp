@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "orchestrator/launch/job_script.hpp"
+#include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
 
 namespace cupola {
@@ -28,15 +29,7 @@ int stages_left(const std::vector<json>& journal, int episodes) {
 
 }  // namespace
 
-std::string SlurmChain::open_name() const {
-  std::string name;
-  for (const json& record : run_.journal().records()) {
-    const std::string event = record.value("event", "");
-    if (event == "chain-submitting") name = record.value("name", "");
-    if (event == "chain-ended") name.clear();
-  }
-  return name;
-}
+std::string SlurmChain::open_name() const { return open_jobs(run_.journal().records()).chain; }
 
 std::vector<std::string> SlurmChain::submit(const StageLauncher& launcher, std::optional<int> at_most) {
   const Launch& launch = run_.campaign().launch;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/report/answers.hpp"
 #include "orchestrator/report/charts.hpp"
 #include "orchestrator/report/json_numbers.hpp"
@@ -159,6 +160,9 @@ std::pair<std::string, std::string> state_of(const RunRecord& run, const std::ve
   const auto total = number_at(stage.summary, "/process_seconds_total");
   if (!stage.readable && done && total && *total > 0) {
     where += fmt::format(", {:.0f} % of its process time", 100 * *done / *total);
+  }
+  if (!worked_at && open_jobs(run.journal).any()) {
+    return {"queued", fmt::format("{}; its jobs are left to Slurm", where)};
   }
   return worked_at ? std::pair{std::string("running"), where}
                    : std::pair{std::string("stopped"), fmt::format("{}; cupola resume goes on", where)};

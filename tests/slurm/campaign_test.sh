@@ -8,6 +8,7 @@ source=$2
 work=$3
 here=$(dirname "$(realpath "$0")")
 . "$here/one_node.sh"
+. "$here/looks.sh"
 rm -rf "$work"
 mkdir -p "$work"
 orchestrator=
@@ -27,42 +28,11 @@ fail() {
   exit 1
 }
 
-# status_of COMMAND...: runs it, its words into the log, and prints its exit status.
-status_of() {
-  echo "== $*" >> "$work/out"
-  "$@" >> "$work/out" 2>&1
-  echo $?
-}
-
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local until=$((SECONDS + $1))
-  shift
-  until "$@" > /dev/null 2>&1; do
-    [[ $SECONDS -lt $until ]] || return 1
-    sleep 0.1
-  done
-}
-
 # campaign FILE LAUNCH: the tiny campaign, its stages long enough to be caught at work.
 campaign() {
   sed -e "s/^launch:.*/launch: {slurm: {ranks: 2, $2}}/" -e 's/^tracer:.*/tracer: {duration: 0.3 h, accuracy: 5 %}/' \
     -e 's/^dem:.*/dem: {relaxation: 0.2 s, window: 1.0 s, stop: {at_most: 1.2 s}}/' "$source/cases/tiny/campaign.yaml" > "$1"
 }
-
-# events RUN WHAT...: how many lines of the journal hold all of these.
-events() {
-  local lines
-  lines=$(cat "$1/journal.jsonl")
-  shift
-  for what in "$@"; do lines=$(grep -- "$what" <<< "$lines"); done
-  grep -c . <<< "$lines"
-}
-
-# works_in RUN EPISODE STAGE [LINES]: its program has got so far.
-works_in() { [[ $(wc -l < "$1/episodes/$2/$3/attempt-1/history.jsonl") -ge ${4:-2} ]]; }
-job_running() { [[ $(squeue --noheader --jobs="$1" --format=%T) == RUNNING ]]; }
-job_of() { grep '"event":"job-submitted"' "$1/journal.jsonl" | tail -n 1 | sed 's/.*"job":"\([0-9]*\)".*/\1/'; }
 
 # same_end RUN [KEYS]: as the run in the allocation, to the last bit, whatever is said of these keys.
 same_end() {
@@ -107,6 +77,7 @@ preempted=$(job_of "$run")
 sbatch --quiet --partition=urgent --ntasks=2 --time=1 --output=/dev/null --wrap "sleep 1"
 wait "$orchestrator"
 status=$?
+orchestrator=
 [[ $status == "$expected" ]] || fail "as jobs it ended with $status, in an allocation with $expected"
 [[ $(events "$run" job-ended "\"job\":\"$preempted\"" '"restarts":1') == 1 ]] || fail "job $preempted was not put back"
 same_end "$run"

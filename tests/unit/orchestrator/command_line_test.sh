@@ -35,6 +35,13 @@ expect 65 "tracer.duration" "$cupola" validate "$work/wrong.yaml"
 expect 65 "$work/wrong.yaml:" "$cupola" validate "$work/wrong.yaml"
 expect 65 '"ok": false' "$cupola" validate "$work/wrong.yaml" --json
 expect 65 "tracer.duration" "$cupola" run "$work/wrong.yaml" --run-dir "$work/run"
+# What the plan refuses is refused by both, and explained all the same.
+sed -e 's/mass_flow: 0.22 kg/mass_flow: 30 kg/' "$tiny" > "$work/choked.yaml"
+expect 65 "tuyere-left" "$cupola" run "$work/choked.yaml" --run-dir "$work/run"
+expect 65 "This cannot be run" "$cupola" explain "$work/choked.yaml"
+expect 65 '"refusals"' "$cupola" explain "$work/choked.yaml" --json
+# A chain of jobs needs a cluster.
+expect 65 "--submit needs to know the cluster" "$cupola" run "$tiny" --run-dir "$work/chain" --submit
 [[ ! -e $work/run ]] || { echo "FAILED: a wrong campaign made a run folder"; failures=$((failures + 1)); }
 : > "$work/empty.yaml"
 expect 65 "" "$cupola" validate "$work/empty.yaml"

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "orchestrator/launch/job_script.hpp"
+#include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/launch/program_output.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
 
@@ -93,6 +94,20 @@ TEST(JobState, IsReadFromAccounting) {
   EXPECT_EQ(cancelled.word, "CANCELLED");
   EXPECT_EQ(cancelled.phase, Phase::ended);
   EXPECT_EQ(job_state_from_accounting("RUNNING|0:0\n").phase, Phase::running);
+}
+
+TEST(OpenJobs, AreThoseTheJournalHasNotSeenEnd) {
+  using nlohmann::json;
+  std::vector<json> journal = {{{"event", "job-submitting"}, {"name", "a"}}};
+  EXPECT_FALSE(open_jobs(journal).any());
+  journal.push_back({{"event", "job-submitted"}, {"name", "a"}, {"job", "12"}});
+  EXPECT_EQ(open_jobs(journal).job, "12");
+  journal.push_back({{"event", "job-ended"}, {"job", "12"}});
+  EXPECT_FALSE(open_jobs(journal).any());
+  journal.push_back({{"event", "chain-submitting"}, {"name", "b"}});
+  EXPECT_EQ(open_jobs(journal).chain, "b");
+  journal.push_back({{"event", "chain-ended"}, {"name", "b"}});
+  EXPECT_FALSE(open_jobs(journal).any());
 }
 
 TEST(ProgramOutput, TakesBothStreamsAndTheStatus) {

@@ -2,7 +2,7 @@
 import { element } from "./page.js";
 
 const order = ["converged", "state_of_the_bed", "certainty", "wall_time"];
-const kinds = { converged: "good", failed: "bad", running: "", "not started": "" };
+const kinds = { converged: "good", failed: "bad", running: "", queued: "", "not started": "" };
 
 export function heading(report) {
   const kind = kinds[report.state] ?? "warn";
