@@ -118,8 +118,10 @@ void write_text_atomically(const std::filesystem::path& file, const std::string&
 nlohmann::json read_json(const std::filesystem::path& file) {
   try {
     return nlohmann::json::parse(read_text(file));
-  } catch (const nlohmann::json::exception& error) {
-    throw Failure(ExitCode::input_output, fmt::format("{}: not whole JSON: {}", file.string(), error.what()))
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Failure(ExitCode::input_output,
+                  fmt::format("{}: not whole JSON from byte {} on: the file is damaged. Put it back from a copy.",
+                              file.string(), error.byte))
         .at("file", file.string());
   }
 }

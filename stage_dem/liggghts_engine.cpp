@@ -19,6 +19,7 @@
 #include <unordered_set>
 
 #include "schemas/failure.hpp"
+#include "schemas/plain_path.hpp"
 #include "stage_dem/liggghts_instance.hpp"
 #include "stage_dem/liggghts_script.hpp"
 #include "stage_dem/parcels.hpp"
@@ -29,7 +30,10 @@ namespace {
 class LiggghtsEngine final : public Engine {
  public:
   LiggghtsEngine(const Campaign& campaign, const EngineSetUp& set_up, MPI_Comm communicator)
-      : liggghts_(communicator, set_up.folder + "/liggghts.log"), folder_(set_up.folder), depth_(period(campaign)) {
+      : plain_folder_(set_up.folder),
+        folder_(plain_folder_.path().string()),
+        liggghts_(communicator, folder_ + "/liggghts.log"),
+        depth_(period(campaign)) {
     for (const auto& line : liggghts_opening(campaign, liggghts_.ranks())) liggghts_.command(line);
     int resumed = set_up.from.empty() ? 0 : 1;
     MPI_Bcast(&resumed, 1, MPI_INT, 0, liggghts_.communicator());
@@ -38,7 +42,10 @@ class LiggghtsEngine final : public Engine {
     } else {
       for (const auto& line : liggghts_box(campaign)) liggghts_.command(line);
     }
-    for (const auto& line : liggghts_physics(campaign, set_up.wall_file, set_up.time_step)) liggghts_.command(line);
+    const std::filesystem::path wall(set_up.wall_file);
+    const PlainPath wall_folder(wall.parent_path());
+    const auto wall_file = (wall_folder.path() / wall.filename()).string();
+    for (const auto& line : liggghts_physics(campaign, wall_file, set_up.time_step)) liggghts_.command(line);
     if (resumed != 0) make_ready();
   }
 
@@ -285,8 +292,9 @@ class LiggghtsEngine final : public Engine {
     throw Failure(ExitCode::diverged, "parcels were lost while others were added");
   }
 
-  LiggghtsInstance liggghts_;
+  PlainPath plain_folder_;
   std::string folder_;
+  LiggghtsInstance liggghts_;
   double depth_;        ///< m, period along y; 0 with walls
   bool ready_ = false;  ///< whether a first run has been made
 };

@@ -17,7 +17,8 @@ using namespace cupola;
 Task read_dem_task(const std::filesystem::path& folder) {
   Task task = read_task(folder);
   if (task.kind != TaskKind::dem)
-    throw Failure(ExitCode::wrong_input, "this task is not for cupola-dem")
+    throw Failure(ExitCode::wrong_input,
+                  (folder / "task.yaml").string() + ": `kind` is tracer: start cupola-tracer on this folder")
         .at("key", "kind")
         .at("file", (folder / "task.yaml").string());
   return task;

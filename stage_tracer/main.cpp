@@ -20,7 +20,8 @@ using cupola::ExitCode;
 cupola::Task read_tracer_task(const std::filesystem::path& folder) {
   cupola::Task task = cupola::read_task(folder);
   if (task.kind != cupola::TaskKind::tracer) {
-    throw cupola::Failure(ExitCode::wrong_input, "task.yaml: kind is not `tracer`; this folder is for another program");
+    throw cupola::Failure(ExitCode::wrong_input,
+                          (folder / "task.yaml").string() + ": `kind` is dem: start cupola-dem on this folder");
   }
   return task;
 }
