@@ -32,7 +32,7 @@ bool can_become_run(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::string name = entry.path().filename().string();
     if (name.ends_with(".part")) name.resize(name.size() - 5);
-    if (!own.contains(name) && name != information_name) return false;
+    if (!own.contains(name) && name != information_name && !name.starts_with("lock.")) return false;
   }
   return true;
 }
@@ -57,7 +57,7 @@ std::string frozen_text(const fs::path& folder, const std::string& name, const s
 }
 
 json read_information(const fs::path& folder) {
-  json information = read_json(folder / information_name);
+  json information = read_sealed_json(folder / information_name);
   for (const char* key : {"campaign_hash", "resolved_hash"})
     if (!information.contains(key) || !information[key].is_string())
       throw Failure(ExitCode::wrong_input, fmt::format("{}: {} is missing", (folder / information_name).string(), key));
@@ -85,13 +85,13 @@ void freeze(const fs::path& folder, const std::string& text, const Campaign& cam
   write_text_atomically(folder / campaign_name, text);
   write_text_atomically(folder / resolved_name, resolved);
   // Last: its presence says that the folder is whole.
-  write_json_atomically(folder / information_name, {{"schema", 1},
-                                                    {"campaign", campaign.name},
-                                                    {"campaign_hash", hash_text(text)},
-                                                    {"resolved_hash", hash_text(resolved)},
-                                                    {"versions", {{"cupola", program_version}}},
-                                                    {"host", host_name()},
-                                                    {"started", utc_now()}});
+  write_sealed_json(folder / information_name, {{"schema", 1},
+                                                {"campaign", campaign.name},
+                                                {"campaign_hash", hash_text(text)},
+                                                {"resolved_hash", hash_text(resolved)},
+                                                {"versions", {{"cupola", program_version}}},
+                                                {"host", host_name()},
+                                                {"started", utc_now()}});
 }
 
 void require_same(const fs::path& folder, const fs::path& campaign_file, const Campaign& campaign) {
