@@ -25,6 +25,9 @@ ExitCode resume(const std::filesystem::path& folder, const MarchOptions& options
 /// `cupola status RUN`
 ExitCode status(const std::filesystem::path& folder, bool as_json);
 
+/// `cupola verify RUN`: compares every byte that carries a hash. @return done, or input_output where one differs
+ExitCode verify(const std::filesystem::path& folder, bool as_json);
+
 /// `cupola report RUN`: makes the report anew, at whatever point the run stands.
 ExitCode report(const std::filesystem::path& folder);
 

@@ -80,7 +80,7 @@ void check_beginning(const fs::path& folder, const std::vector<json>& journal, c
                   fmt::format("{}: the journal of another campaign", (folder / journal_name).string()));
 }
 
-void freeze(const fs::path& folder, const std::string& text, const Campaign& campaign) {
+void freeze(const fs::path& folder, const std::string& text, const Campaign& campaign, const json& versions) {
   const std::string resolved = resolved_yaml(campaign);
   write_text_atomically(folder / campaign_name, text);
   write_text_atomically(folder / resolved_name, resolved);
@@ -89,7 +89,7 @@ void freeze(const fs::path& folder, const std::string& text, const Campaign& cam
                                                 {"campaign", campaign.name},
                                                 {"campaign_hash", hash_text(text)},
                                                 {"resolved_hash", hash_text(resolved)},
-                                                {"versions", {{"cupola", program_version}}},
+                                                {"versions", versions},
                                                 {"host", host_name()},
                                                 {"started", utc_now()}});
 }
@@ -125,6 +125,8 @@ fs::path task_folder(const fs::path& run, int episode, TaskKind kind, int attemp
   return stage_folder(run, episode, kind) / fmt::format("attempt-{}", attempt);
 }
 
+json own_version() { return {{"cupola", program_version}}; }
+
 RunRecord read_run(const fs::path& folder) {
   if (!is_run(folder)) throw not_a_run(folder);
   RunRecord record;
@@ -140,16 +142,17 @@ RunRecord read_run(const fs::path& folder) {
 RunFolder::RunFolder(const fs::path& folder) : path_(fs::canonical(folder)), lock_(path_) {}
 
 void RunFolder::load() {
-  const json information = read_information(path_);
-  campaign_ = frozen_campaign(path_, information);
-  campaign_hash_ = information["campaign_hash"].get<std::string>();
+  information_ = read_information(path_);
+  campaign_ = frozen_campaign(path_, information_);
+  campaign_hash_ = information_["campaign_hash"].get<std::string>();
   journal_ = std::make_unique<Journal>(path_ / journal_name);
   check_beginning(path_, journal_->records(), campaign_hash_);
   if (journal_->records().empty())
     journal_->append("campaign-started", {{"campaign", campaign_.name}, {"campaign_hash", campaign_hash_}});
 }
 
-std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file, const fs::path& folder) {
+std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file, const fs::path& folder,
+                                                   const json& versions) {
   const std::string text = read_text(campaign_file);
   const ReadCampaign read = read_campaign_text(text, campaign_file.string());
   if (!read.ok()) throw Failure(ExitCode::wrong_input, to_text(read.errors));
@@ -163,7 +166,7 @@ std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file
   if (is_run(folder))
     require_same(folder, campaign_file, read.campaign);
   else
-    freeze(folder, text, read.campaign);
+    freeze(folder, text, read.campaign, versions);
   run->load();
   return run;
 }

@@ -25,9 +25,10 @@ class StageLauncher {
   /// The stage itself; goes on when we die.
   [[nodiscard]] Command run(TaskKind kind, const std::filesystem::path& task_folder, int ranks) const;
 
- private:
+  /// The stage's program.
   [[nodiscard]] std::filesystem::path program(TaskKind kind) const;
 
+ private:
   std::filesystem::path programs_;
 };
 

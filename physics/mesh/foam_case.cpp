@@ -17,6 +17,7 @@
 #include <string>
 
 #include "physics/mesh/foam_errors.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -86,7 +87,7 @@ void leave_signals_alone() {
 }  // namespace
 
 struct FoamCase::State {
-  State(const std::filesystem::path& folder, int& argc, char**& argv) {
+  State(const std::filesystem::path& folder, int& argc, char**& argv) : plain(folder) {
     MpiSession::begin(argc, argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);
@@ -109,7 +110,7 @@ struct FoamCase::State {
     with_foam_errors(ExitCode::input_output, fmt::format("OpenFOAM cannot read {}", folder.string()), [&] {
       Foam::messageStream::level = 0;
       Foam::argList::noBanner();
-      words = {program, "-case", folder.string(), "-noFunctionObjects"};
+      words = {program, "-case", plain.get().string(), "-noFunctionObjects"};
       if (ranks > 1) words.emplace_back("-parallel");
       for (std::string& word : words) word_pointers.push_back(word.data());
       word_pointers.push_back(nullptr);
@@ -162,6 +163,7 @@ struct FoamCase::State {
     }
   }
 
+  PlainPath plain;                 ///< of the case
   std::vector<std::string> words;  ///< argList keeps pointers to them
   std::vector<char*> word_pointers;
   int foam_argc = 0;

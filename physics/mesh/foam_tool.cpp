@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "schemas/files.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -80,7 +81,8 @@ int wait_for(pid_t child) {
 std::string run_foam_tool(const std::string& program, const std::vector<std::string>& options,
                           const std::filesystem::path& case_folder) {
   const std::filesystem::path log = case_folder / ("log." + program);
-  std::vector<std::string> words{program, "-case", case_folder.string()};
+  const PlainPath plain(case_folder);
+  std::vector<std::string> words{program, "-case", plain.get().string()};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);

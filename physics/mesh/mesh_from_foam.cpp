@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "physics/mesh/foam_errors.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -116,11 +117,12 @@ void order_cell(const Foam::cell& faces, std::size_t cell, BedMesh& mesh) {
 }  // namespace
 
 BedMesh mesh_from_foam(const std::filesystem::path& case_folder, const Campaign& campaign) {
+  const PlainPath plain(case_folder);
   return with_foam_errors(
       ExitCode::input_output, fmt::format("OpenFOAM cannot read the mesh in {}", case_folder.string()), [&] {
         Foam::messageStream::level = 0;
-        const Foam::Time time(Foam::Time::controlDictName, case_folder.parent_path().string(),
-                              Foam::fileName(case_folder.filename().string()), "system", "constant", false, false);
+        const Foam::Time time(Foam::Time::controlDictName, plain.get().parent_path().string(),
+                              Foam::fileName(plain.get().filename().string()), "system", "constant", false, false);
         const Foam::polyMesh foam(
             Foam::IOobject(Foam::polyMesh::defaultRegion, time.timeName(), time, Foam::IOobject::MUST_READ));
         BedMesh mesh;
