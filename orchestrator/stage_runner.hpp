@@ -64,6 +64,8 @@ class StageRunner {
   void be_patient(const StagePlace& place, int status, Patience& patience);
   /// @return false where it was stopped
   bool judge_end(const StagePlace& place, int status, Patience& patience);
+  /// `dem stage of episode 2`
+  [[nodiscard]] static std::string name_of(const StagePlace& place);
   [[nodiscard]] Campaign campaign_in_force() const;
   [[nodiscard]] int ranks() const;
   [[nodiscard]] nlohmann::json about(const StagePlace& place) const;

@@ -40,9 +40,12 @@ std::string output_of(const std::filesystem::path& program, const char* option) 
   ::close(pipe[1]);
   std::string text;
   std::array<char, 4096> buffer{};
-  for (ssize_t count = 0; problem == 0 && ((count = ::read(pipe[0], buffer.data(), buffer.size())) > 0 || errno == EINTR);)
-    if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
-    else if (count == 0) break;
+  for (ssize_t count = 0;
+       problem == 0 && ((count = ::read(pipe[0], buffer.data(), buffer.size())) > 0 || errno == EINTR);)
+    if (count > 0)
+      text.append(buffer.data(), static_cast<std::size_t>(count));
+    else if (count == 0)
+      break;
   ::close(pipe[0]);
   int status = 0;
   while (problem == 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -78,23 +81,21 @@ json present_versions(const StageLauncher& launcher) {
   return versions;
 }
 
-json versions_in_force(const RunRecord& run) { return in_force(run.information, run.journal); }
-json versions_in_force(const RunFolder& run) { return in_force(run.information(), run.journal().records()); }
-
 void settle_versions(RunFolder& run, const json& present, bool accept) {
-  const json before = versions_in_force(run);
+  const json before = in_force(run.information(), run.journal().records());
   std::vector<std::string> differences;
   for (const auto& [name, version] : before.items())
     if (present.value(name, "") != version)
-      differences.push_back(fmt::format("{} {} (here {})", name, version.get<std::string>(), present.value(name, "none")));
+      differences.push_back(
+          fmt::format("{} {} (here {})", name, version.get<std::string>(), present.value(name, "none")));
   if (differences.empty() && before.size() == present.size()) return;
   if (!differences.empty() && !accept)
-    throw Failure(ExitCode::wrong_input,
-                  fmt::format("{}: goes by {}. What comes next would not be what the former versions give. {} Go on with "
-                              "`cupola resume {} --accept-versions` (finished stages are kept, a stage under way goes on "
-                              "from its checkpoint), use the former versions, or begin a new run folder.",
-                              run.path().string(), fmt::join(differences, ", "), still_whole(run.path()),
-                              run.path().string()));
+    throw Failure(
+        ExitCode::wrong_input,
+        fmt::format("{}: goes by {}. What comes next would not be what the former versions give. {} Go on with "
+                    "`cupola resume {} --accept-versions` (finished stages are kept, a stage under way goes on "
+                    "from its checkpoint), use the former versions, or begin a new run folder.",
+                    run.path().string(), fmt::join(differences, ", "), still_whole(run.path()), run.path().string()));
   run.journal().append("versions-accepted", {{"versions", present}});
 }
 

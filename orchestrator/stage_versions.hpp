@@ -11,11 +11,8 @@ namespace cupola {
 /// @throws Failure input_output where a stage's program cannot be started or comes from another version of cupola
 nlohmann::json present_versions(const StageLauncher& launcher);
 
-/// The versions a run goes by: those of its beginning, or those accepted last.
-nlohmann::json versions_in_force(const RunRecord& run);
-nlohmann::json versions_in_force(const RunFolder& run);
-
-/// Sees that a run goes on with the versions it goes by, and writes accepted new ones into the journal.
+/// Sees that a run goes on with the versions it goes by (those of its beginning, or those accepted last), and writes
+/// accepted new ones into the journal.
 /// @throws Failure wrong_input: names what differs, what of the run can still be used, and how to accept it
 void settle_versions(RunFolder& run, const nlohmann::json& present, bool accept);
 

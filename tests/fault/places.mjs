@@ -3,7 +3,7 @@
 //   node places.mjs CUPOLA SOURCE_DIR WORK_DIR SHIM
 import { spawnSync } from 'node:child_process';
 import { renameSync } from 'node:fs';
-import { aloneFolder, campaignFile, check, compare, copyOfAlone, cpSync, endStagesOf, existsSync, expectedStatus, finishAndCompare, freshFolder, journal, kill, mkdirSync, path, readFileSync, rmSync, run, stageOf, start, waitFor, workFolder, writeFileSync } from './tools.mjs';
+import { aloneFolder, campaignFile, check, compare, copyOfAlone, cpSync, cupola, endStagesOf, existsSync, expectedStatus, finishAndCompare, freshFolder, journal, kill, mkdirSync, path, readFileSync, rmSync, run, stageOf, start, waitFor, workFolder, writeFileSync } from './tools.mjs';
 
 const shim = process.argv[5];
 const seconds = (begin) => `${((Date.now() - begin) / 1000).toFixed(1)} s`;
@@ -81,7 +81,7 @@ async function fullAndReadOnly() {
   }
 }
 
-/// A rewritten run.json, sealed as the program seals it, cannot be had without the program: the journal's line is the way.
+/// State is kept by parcel and tracer, so that another number of ranks can read it; sums are then added up in another order.
 async function otherRanks() {
   const begin = Date.now();
   const folder = path.join(freshFolder('ranks'), 'run');
@@ -123,7 +123,36 @@ function swappedAndChanged() {
   console.log(`a swapped result and a changed campaign file: named, with what can still be used (${seconds(begin)})`);
 }
 
+/// Programs whose libraries have been exchanged under the run.
+function otherVersions() {
+  const begin = Date.now();
+  const programs = path.join(freshFolder('versions'), 'bin');
+  mkdirSync(programs, { recursive: true });
+  const real = path.dirname(cupola);
+  cpSync(cupola, path.join(programs, 'cupola'));
+  for (const stage of ['cupola-dem', 'cupola-tracer']) {
+    const said = JSON.parse(spawnSync(path.join(real, stage), ['--versions'], { encoding: 'utf8' }).stdout);
+    for (const library of ['openfoam', 'hdf5', 'mpi', 'cupola']) check(said[library], `${stage} does not say its ${library}`);
+    const other = JSON.stringify({ ...said, openfoam: '9999' });
+    writeFileSync(path.join(programs, stage), `#!/bin/sh\ncase "$1" in --versions) echo '${other}' ;; *) exec '${path.join(real, stage)}' "$@" ;; esac\n`, { mode: 0o755 });
+  }
+  const folder = copyOfAlone('versions/run');
+  const resume = (...words) => {
+    const ended = spawnSync(path.join(programs, 'cupola'), ['resume', folder, ...words], { encoding: 'utf8' });
+    return { status: ended.status, output: ended.stdout + ended.stderr };
+  };
+  const refused = resume();
+  check(refused.status === 65 && /openfoam \d+ \(here 9999\)/.test(refused.output) && /--accept-versions/.test(refused.output) && /Whole and usable/.test(refused.output), 'another version is not named', refused.output);
+  const accepted = resume('--accept-versions');
+  check(accepted.status === expectedStatus(), 'another version is not accepted', accepted.output);
+  check(resume().status === expectedStatus(), 'an accepted version is asked for again');
+  const information = JSON.parse(readFileSync(path.join(folder, 'run.json')));
+  check(information.versions.liggghts && information.versions.hdf5, 'run.json does not say the versions of the libraries');
+  console.log(`another version of a library: named, refused, and taken when accepted (${seconds(begin)})`);
+}
+
 await blanksAndMoving();
 await fullAndReadOnly();
 await otherRanks();
 swappedAndChanged();
+otherVersions();

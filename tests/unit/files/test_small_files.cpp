@@ -5,6 +5,7 @@
 
 #include "raw_files.hpp"
 #include "schemas/files.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -114,6 +115,28 @@ TEST(SmallFiles, AFailureWrittenByHandNeedsNoSeal) {
   const TemporaryFolder folder;
   test::write_raw(folder.path() / "failure.json", R"({"code": 70, "sentence": "overlap"})");
   EXPECT_EQ(read_failure(folder.path()).value().at("sentence"), "overlap");
+}
+
+TEST(PlainPath, IsTheFoldersOwnWhereThatIsPlain) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(PlainPath(folder.path()).get(), folder.path());
+}
+
+TEST(PlainPath, LeadsIntoAFolderWithBlanks) {
+  const TemporaryFolder folder;
+  const std::filesystem::path blank = folder.path() / "Lauf 1 \u00fc";
+  std::filesystem::create_directories(blank);
+  std::filesystem::path link;
+  {
+    const PlainPath first(blank);
+    const PlainPath of_another_rank(blank);
+    link = first.get();
+    EXPECT_EQ(link, of_another_rank.get());
+    EXPECT_EQ(link.string().find(' '), std::string::npos);
+    test::write_raw(link / "file", "x");
+  }
+  EXPECT_EQ(test::raw_bytes(blank / "file"), "x");
+  EXPECT_FALSE(std::filesystem::is_symlink(link));
 }
 
 }  // namespace
