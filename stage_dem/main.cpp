@@ -58,8 +58,9 @@ int main(int argc, char** argv) {
       "cupola-dem: seconds of coarse-grained CFD-DEM of a moving bed, to its averaged granular field "
       "(docs/contracts.md)");
   app.set_version_flag("--version", std::string("cupola-dem ") + program_version);
-  const std::map<std::string, std::string> libraries{{"openfoam", Foam::foamVersion::version},
-                                                     {"liggghts", LAMMPS_VERSION}};
+  const std::map<std::string, std::string> libraries{
+      {"openfoam", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch},
+      {"liggghts", LAMMPS_VERSION}};
   app.add_flag_callback(
       "--versions",
       [&] {

@@ -62,7 +62,9 @@ int main(int argc, char** argv) {
   app.add_flag_callback(
       "--versions",
       [] {
-        std::cout << cupola::program_versions({{"openfoam", Foam::foamVersion::version}}) << "\n";
+        std::cout << cupola::program_versions(
+                         {{"openfoam", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch}})
+                  << "\n";
         throw CLI::Success();
       },
       "Print the versions of the program and its libraries as JSON");

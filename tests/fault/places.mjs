@@ -142,7 +142,7 @@ function otherVersions() {
     return { status: ended.status, output: ended.stdout + ended.stderr };
   };
   const refused = resume();
-  check(refused.status === 65 && /openfoam \d+ \(here 9999\)/.test(refused.output) && /--accept-versions/.test(refused.output) && /Whole and usable/.test(refused.output), 'another version is not named', refused.output);
+  check(refused.status === 65 && /openfoam \S+ \(here 9999\)/.test(refused.output) && /--accept-versions/.test(refused.output) && /Whole and usable/.test(refused.output), 'another version is not named', refused.output);
   const accepted = resume('--accept-versions');
   check(accepted.status === expectedStatus(), 'another version is not accepted', accepted.output);
   check(resume().status === expectedStatus(), 'an accepted version is asked for again');
