@@ -6,7 +6,7 @@ RUN_DIR ?= runs/slot_quick
 ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
 CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
 
-.PHONY: run test test-long setup build bench sanitize tidy tidy-all format-check clean
+.PHONY: run test test-long test-slurm setup build bench sanitize tidy tidy-all format-check clean
 
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
@@ -20,6 +20,10 @@ test: build
 test-long: build
 	@echo "== running all tests, the long ones too"
 	$(CTEST) --test-dir $(BUILD)
+
+test-slurm: build
+	@echo "== a real Slurm of one node, started by the test"
+	$(CTEST) --test-dir $(BUILD) -L slurm
 
 setup:
 	@echo "== packages, OpenFOAM headers"

@@ -68,7 +68,7 @@ std::string trial_run(const fs::path& folder, SignalWatch& signals) {
   const std::string campaign_hash = hash_text(smoke_campaign());
   ensure_task(task, stage_task(TaskKind::dem, 1, read.campaign, campaign_hash, {}, task));
   output_of(launcher.prepare(TaskKind::dem, task), signals, folder / "prepare.log");
-  output_of(launcher.run(TaskKind::dem, task, read.campaign.launch.ranks), signals, folder / "run.log");
+  output_of(launcher.run(TaskKind::dem, task, read.campaign.launch), signals, folder / "run.log");
   check_result(task, TaskKind::dem, read.campaign, campaign_hash);
   const auto progress = read_progress(task);
   return fmt::format("{} steps on {} ranks, result checked", progress ? progress->step : 0, read.campaign.launch.ranks);

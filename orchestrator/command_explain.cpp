@@ -9,7 +9,7 @@ namespace cupola {
 ExitCode explain(const std::filesystem::path& campaign_file, bool as_json) {
   const Plan plan = make_plan(load_campaign(campaign_file));
   fmt::print("{}\n", as_json ? plan_json(plan).dump(2) : plan_text(plan));
-  return ExitCode::done;
+  return plan.refusals.empty() ? ExitCode::done : ExitCode::wrong_input;
 }
 
 }  // namespace cupola

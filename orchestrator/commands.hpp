@@ -22,8 +22,21 @@ ExitCode run(const std::filesystem::path& campaign_file, const std::optional<std
 /// `cupola resume RUN`
 ExitCode resume(const std::filesystem::path& folder, const MarchOptions& options);
 
+/// `cupola run CAMPAIGN --submit`: queues the whole campaign as a chain of jobs in Slurm.
+ExitCode submit(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder,
+                const MarchOptions& options);
+/// `cupola resume RUN --submit`: the same for what is left of a run.
+ExitCode submit_again(const std::filesystem::path& folder, const MarchOptions& options);
+/// A link of such a chain: one stage.
+ExitCode chain_link(const std::filesystem::path& folder, MarchOptions options);
+
 /// `cupola status RUN`
-ExitCode status(const std::filesystem::path& folder, bool as_json);
+/// @param again_and_again `--watch`: until the campaign has ended or a signal comes
+ExitCode status(const std::filesystem::path& folder, bool as_json, bool again_and_again);
+
+/// `cupola serve RUN`: the report in a browser while the campaign runs; until a signal comes.
+/// @param host address to listen at @param port 0: any free one
+ExitCode serve(const std::filesystem::path& folder, const std::string& host, int port);
 
 /// `cupola verify RUN`: compares every byte that carries a hash. @return done, or input_output where one differs
 ExitCode verify(const std::filesystem::path& folder, bool as_json);

@@ -13,8 +13,9 @@ std::vector<double> mixture_heat_capacity(const FieldFile& tracer, const Campaig
   std::vector<double> sum(tracer.cells(), 0.);
   for (const Species& species : campaign.species) {
     const std::vector<double> share = tracer.cell_data("volume_share." + species.name);
+    const std::vector<double> temperature = tracer.cell_data("solids_temperature." + species.name);
     for (std::size_t cell = 0; cell < sum.size(); ++cell)
-      sum[cell] += share[cell] * species.density * species.heat_capacity;
+      sum[cell] += share[cell] * species.density * species.heat_capacity.at(temperature[cell]);
   }
   return sum;
 }

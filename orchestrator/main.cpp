@@ -45,7 +45,9 @@ int main(int argc, char** argv) {
   std::filesystem::path campaign, folder;
   std::optional<std::filesystem::path> run_folder;
   cupola::MarchOptions options;
-  bool as_json = false;
+  bool as_json = false, in_chain = false, is_link = false, watched = false;
+  std::string host = "127.0.0.1";
+  int port = 8127;
   std::function<ExitCode()> command;
 
   const auto with_campaign = [&](CLI::App* sub) {
@@ -68,6 +70,11 @@ int main(int argc, char** argv) {
         ->check(CLI::PositiveNumber);
   };
 
+  const auto with_submit = [&](CLI::App* sub) {
+    sub->add_flag("--submit", in_chain,
+                  "Queue the whole campaign in Slurm as a chain of jobs; nothing is left running here");
+  };
+
   CLI::App* validate = with_campaign(app.add_subcommand("validate", "List all errors of a campaign file"));
   with_json(validate);
   validate->callback([&] { command = [&] { return cupola::validate(campaign, as_json); }; });
@@ -80,15 +87,36 @@ int main(int argc, char** argv) {
   CLI::App* run = with_campaign(app.add_subcommand("run", "Run a campaign, or go on with its run folder"));
   run->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
   with_limits(run);
-  run->callback([&] { command = [&] { return cupola::run(campaign, run_folder, options); }; });
+  with_submit(run);
+  run->callback([&] {
+    command = [&] {
+      return in_chain ? cupola::submit(campaign, run_folder, options) : cupola::run(campaign, run_folder, options);
+    };
+  });
 
   CLI::App* resume = with_folder(app.add_subcommand("resume", "Go on with a run that was stopped or killed"));
   with_limits(resume);
-  resume->callback([&] { command = [&] { return cupola::resume(folder, options); }; });
+  with_submit(resume);
+  resume->add_flag("--chain-link", is_link)->group("");  // what a job of the chain is
+  resume->callback([&] {
+    command = [&] {
+      if (is_link) return cupola::chain_link(folder, options);
+      return in_chain ? cupola::submit_again(folder, options) : cupola::resume(folder, options);
+    };
+  });
 
   CLI::App* status = with_folder(app.add_subcommand("status", "Say how a run stands; changes nothing"));
   with_json(status);
-  status->callback([&] { command = [&] { return cupola::status(folder, as_json); }; });
+  status->add_flag("--watch", watched, "Show it again and again, until the campaign has ended");
+  status->callback([&] { command = [&] { return cupola::status(folder, as_json, watched); }; });
+
+  CLI::App* serve = with_folder(
+      app.add_subcommand("serve", "Show the report of a run in a browser, kept up to date; changes nothing"));
+  serve->add_option("--host", host, "The address to listen at")->capture_default_str();
+  serve->add_option("--port", port, "The port to listen at; 0: any free one")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 65535));
+  serve->callback([&] { command = [&] { return cupola::serve(folder, host, port); }; });
 
   CLI::App* verify =
       with_folder(app.add_subcommand("verify", "Compare every byte of a run with its hashes; changes nothing"));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -32,6 +33,16 @@ Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::files
   return inputs;
 }
 
+constexpr const char* on_request = "on request";
+constexpr const char* after_one_stage = "after one stage, as asked for";
+
+/// How many stages the journal knows the end of.
+long stages_finished(const RunFolder& run) {
+  const auto& records = run.journal().records();
+  return std::count_if(records.begin(), records.end(),
+                       [](const json& record) { return record.value("event", "") == "stage-finished"; });
+}
+
 std::string change_text(const json& judgement) {
   std::string text;
   for (const auto& [rule, change] : judgement["change"].items())
@@ -54,9 +65,10 @@ class March {
 
   ExitCode go() {
     for (int episode = 1; episode <= limit_; ++episode) {
-      if (!finish_episode(episode)) return stop("on request");
+      if (const auto why = finish_episode(episode)) return stop(*why);
       const Verdict now = judge(episode);
       if (now != Verdict::not_yet) return end(now, episode);
+      if (episode < limit_ && enough_for_once()) return stop(after_one_stage);
       if (options_.until_episode && episode >= *options_.until_episode && episode < limit_)
         return stop(fmt::format("after episode {}, as asked for", episode));
     }
@@ -64,17 +76,22 @@ class March {
   }
 
  private:
-  bool finish_episode(int episode) {
+  /// @return why it has not been finished; none: it has
+  std::optional<std::string> finish_episode(int episode) {
     StagePlace place{episode, limit_, TaskKind::dem, 1};
     const auto dem = stages_.finish(place, dem_inputs(finished_, run_.campaign()));
-    if (!dem) return false;
+    if (!dem) return on_request;
     after_stage_();
+    if (enough_for_once()) return after_one_stage;
     place.kind = TaskKind::tracer;
     const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_.campaign()));
-    if (!tracer) return false;
+    if (!tracer) return on_request;
     finished_.push_back({*dem, *tracer});
-    return true;
+    return std::nullopt;
   }
+
+  /// Whether the one stage that was asked for has ended while we worked here.
+  [[nodiscard]] bool enough_for_once() const { return options_.one_stage && stages_finished(run_) > finished_before_; }
 
   /// Judges the episode, or takes what an earlier orchestrator wrote down.
   Verdict judge(int episode) {
@@ -136,6 +153,7 @@ class March {
   int limit_;
   std::vector<EpisodeFolders> finished_;
   std::vector<bool> met_;
+  long finished_before_ = stages_finished(run_);
 };
 
 }  // namespace

@@ -56,8 +56,8 @@ class Looker {
       attempt_to([&, name = name, key = key] {
         ++check_.files;
         if (hash_file(run_ / name) != information.value(key, ""))
-          check_.problems.push_back(fmt::format(
-              "{}: changed after the run began; put the file back from a copy", (run_ / name).string()));
+          check_.problems.push_back(
+              fmt::format("{}: changed after the run began; put the file back from a copy", (run_ / name).string()));
       });
     campaign_hash_ = information.value("campaign_hash", "");
   }
@@ -82,12 +82,14 @@ class Looker {
       look_at_result(folder, name, finished);
       return;
     }
-    if (finished != nullptr) check_.problems.push_back(fmt::format("{}: the manifest of the {} is missing", folder.string(), name));
+    if (finished != nullptr)
+      check_.problems.push_back(fmt::format("{}: the manifest of the {} is missing", folder.string(), name));
     if (preparing != nullptr && preparing->contains("task_hash")) {
       attempt_to([&] {
         ++check_.files;
         if (hash_file(folder / "task.yaml") != (*preparing)["task_hash"])
-          check_.problems.push_back(fmt::format("{}: not the task that the journal knows", (folder / "task.yaml").string()));
+          check_.problems.push_back(
+              fmt::format("{}: not the task that the journal knows", (folder / "task.yaml").string()));
       });
     }
     attempt_to([&] { read_failure(folder); });
@@ -101,9 +103,10 @@ class Looker {
     attempt_to([&] {
       check_.files += 1 + read_json(folder / "manifest.json").value("files", json::object()).size();
       if (finished != nullptr && finished->value("manifest_hash", "") != hash_file(folder / "manifest.json"))
-        check_.problems.push_back(fmt::format("{}: not the manifest that the journal knows: the result of the {} was "
-                                              "changed or swapped",
-                                              (folder / "manifest.json").string(), name));
+        check_.problems.push_back(
+            fmt::format("{}: not the manifest that the journal knows: the result of the {} was "
+                        "changed or swapped",
+                        (folder / "manifest.json").string(), name));
     });
     if (check_.problems.size() == before) check_.whole.push_back(name);
   }
@@ -138,7 +141,8 @@ class Looker {
       if (record.value("event", "") != "stage-finished") continue;
       const TaskKind kind = record.value("stage", "") == "dem" ? TaskKind::dem : TaskKind::tracer;
       const fs::path folder = task_folder(run_, record.value("episode", 0), kind, record.value("attempt", 0));
-      if (!fs::is_directory(folder)) check_.problems.push_back(folder.string() + ": missing, although the journal knows it finished");
+      if (!fs::is_directory(folder))
+        check_.problems.push_back(folder.string() + ": missing, although the journal knows it finished");
     }
   }
 

@@ -5,11 +5,11 @@
 
 #include <set>
 
+#include "orchestrator/built_with.hpp"
 #include "orchestrator/campaign_difference.hpp"
 #include "orchestrator/child_process.hpp"
 #include "schemas/campaign_reader.hpp"
 #include "schemas/resolved_campaign.hpp"
-#include "schemas/version.hpp"
 
 namespace cupola {
 namespace {
@@ -124,8 +124,6 @@ fs::path stage_folder(const fs::path& run, int episode, TaskKind kind) {
 fs::path task_folder(const fs::path& run, int episode, TaskKind kind, int attempt) {
   return stage_folder(run, episode, kind) / fmt::format("attempt-{}", attempt);
 }
-
-json own_version() { return {{"cupola", program_version}}; }
 
 RunRecord read_run(const fs::path& folder) {
   if (!is_run(folder)) throw not_a_run(folder);

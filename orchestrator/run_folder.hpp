@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orchestrator/built_with.hpp"
 #include "orchestrator/journal.hpp"
 #include "schemas/campaign.hpp"
 #include "schemas/files.hpp"
@@ -29,9 +30,6 @@ std::filesystem::path stage_folder(const std::filesystem::path& run, int episode
 /// `RUN/episodes/002/dem/attempt-1`
 std::filesystem::path task_folder(const std::filesystem::path& run, int episode, TaskKind kind, int attempt);
 
-/// `{"cupola": …}`: this program's own version.
-nlohmann::json own_version();
-
 /// A run folder this process works in: locked, its journal open.
 class RunFolder {
  public:
@@ -41,7 +39,7 @@ class RunFolder {
   /// holds something else; held: another orchestrator works there; input_output
   static std::unique_ptr<RunFolder> for_campaign(const std::filesystem::path& campaign_file,
                                                  const std::filesystem::path& folder,
-                                                 const nlohmann::json& versions = own_version());
+                                                 const nlohmann::json& versions = program_versions());
   /// Opens a folder that is there. @throws Failure as above
   static std::unique_ptr<RunFolder> open(const std::filesystem::path& folder);
 

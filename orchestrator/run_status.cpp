@@ -2,7 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "orchestrator/launch/slurm_queue.hpp"
 #include "orchestrator/progress_view.hpp"
+#include "orchestrator/quantity_text.hpp"
+#include "orchestrator/remaining_time.hpp"
 #include "orchestrator/stage_launcher.hpp"
 #include "orchestrator/stage_state.hpp"
 
@@ -71,6 +78,132 @@ void describe_rest(const RunRecord& run, json& status) {
   }
 }
 
+/// The job of the present stage, or of a chain, that the journal has not seen end, as Slurm sees it where it can be
+/// asked.
+json present_job(const RunRecord& run) {
+  std::string job;
+  std::string chain;
+  for (const json& record : run.journal) {
+    const std::string event = record.value("event", "");
+    if (event == "job-submitted") job = record.value("job", "");
+    if (event == "job-ended") job.clear();
+    if (event == "chain-submitted") chain = record.value("name", "");
+    if (event == "chain-ended") chain.clear();
+  }
+  if (job.empty() && !chain.empty()) {
+    const auto links = SlurmQueue::unfinished(chain);
+    if (links && !links->empty()) job = links->front();
+  }
+  if (job.empty()) return nullptr;
+  const JobState state = SlurmQueue::state(job);
+  return {{"number", job},
+          {"state", state.word.empty() ? json() : json(state.word)},
+          {"reason", state.reason},
+          {"over", state.phase == JobState::Phase::ended || state.phase == JobState::Phase::forgotten}};
+}
+
+/// The last line of a stage's history that knows a quantity; stages backwards from the present one.
+json last_known(const RunRecord& run, const Present& present, const std::string& quantity) {
+  for (int episode = present.episode; episode >= 1; --episode) {
+    const StageState state = stage_state(run.folder, run.journal, episode, TaskKind::tracer);
+    if (state.condition == StageState::Condition::absent) continue;
+    const auto history = read_history(state.folder);
+    for (auto line = history.rbegin(); line != history.rend(); ++line)
+      if (line->contains(quantity) && (*line)[quantity].is_number()) return (*line)[quantity];
+  }
+  return nullptr;
+}
+
+/// Wall time of the finished stages of one kind, mean; 0 where there is none.
+double mean_wall_seconds(const RunRecord& run, TaskKind kind) {
+  double sum = 0;
+  int stages = 0;
+  for (const json& record : run.journal) {
+    if (record.value("event", "") != "stage-finished" || record.value("stage", "") != stage_name(kind)) continue;
+    const auto progress =
+        read_progress(task_folder(run.folder, record.value("episode", 0), kind, record.value("attempt", 1)));
+    if (!progress) continue;
+    sum += progress->wall_seconds;
+    ++stages;
+  }
+  return stages > 0 ? sum / stages : 0;
+}
+
+/// Rest of the present stage, of its episode and of the episodes after it, by the trend of convergence.
+json remaining(const RunRecord& run, const Present& present, int at_most) {
+  std::vector<json> judged;
+  for (const json& record : run.journal)
+    if (record.value("event", "") == "episode-judged") judged.push_back(record);
+  const auto trend = remaining_episodes(judged, run.campaign.converged, at_most);
+  json result = {{"episodes", trend ? json(trend->episodes) : json()},
+                 {"seconds", nullptr},
+                 {"until_limit", trend ? json(trend->until_limit) : json()},
+                 {"why", trend ? trend->why : "known after two episodes"}};
+  const double dem = mean_wall_seconds(run, TaskKind::dem), tracer = mean_wall_seconds(run, TaskKind::tracer);
+  if (!trend || dem <= 0 || tracer <= 0) return result;
+  double seconds = trend->episodes * (dem + tracer);
+  // What of the present episode has been done already.
+  if (present.episode > static_cast<int>(judged.size()) && trend->episodes > 0) {
+    const auto progress = read_progress(present.state.folder);
+    const double share = progress && progress->process_seconds_total > 0
+                             ? std::min(progress->process_seconds / progress->process_seconds_total, 1.0)
+                             : 0.0;
+    seconds -= present.kind == TaskKind::dem ? share * dem : dem + share * tracer;
+  }
+  result["seconds"] = std::max(seconds, 0.0);
+  return result;
+}
+
+/// Lines of warning at the end of a stage's log, without their time.
+std::vector<std::string> logged_warnings(const std::filesystem::path& log) {
+  constexpr std::uintmax_t end_read = 65536;
+  std::vector<std::string> warnings;
+  std::ifstream file(log);
+  if (!file) return warnings;
+  std::error_code ignored;
+  if (const auto size = std::filesystem::file_size(log, ignored); size > end_read && !ignored)
+    file.seekg(static_cast<std::streamoff>(size - end_read));
+  for (std::string line; std::getline(file, line);)
+    for (const char* level : {" warning: ", " error: "})
+      if (const auto at = line.find(level); at != std::string::npos && at < 30)
+        warnings.push_back(line.substr(at + std::string(level).size()));
+  return warnings;
+}
+
+/// The last things that went otherwise than planned, newest last.
+std::vector<std::string> last_warnings(const RunRecord& run, const Present& present) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> warnings;
+  for (const json& record : run.journal) {
+    const std::string event = record.value("event", "");
+    const std::string place =
+        fmt::format("{} stage of episode {}", record.value("stage", ""), record.value("episode", 0));
+    if (event == "stage-failed" && record.contains("failure"))
+      warnings.push_back(place + ": " + record["failure"].value("sentence", ""));
+    if (event == "stage-died") warnings.push_back(place + " ended without saying why and was started again");
+    if (event == "result-refused") warnings.push_back(place + ": " + record.value("sentence", ""));
+    if (event == "advice-taken") warnings.push_back(place + " was tried again: " + record.value("because", ""));
+    if (event == "stage-stopped" && record.contains("why")) warnings.push_back(place + ": " + record.value("why", ""));
+  }
+  // The stage says its warnings to its log and, through mpirun, once more into the same file.
+  std::set<std::string> said;
+  for (const std::string& line : logged_warnings(present.state.folder / "stage.log"))
+    if (said.insert(line).second)
+      warnings.push_back(fmt::format("{} stage of episode {}: {}", stage_name(present.kind), present.episode, line));
+  if (warnings.size() > most) warnings.erase(warnings.begin(), warnings.end() - most);
+  return warnings;
+}
+
+std::string remaining_text(const json& remaining) {
+  if (!remaining["episodes"].is_number()) return "";
+  const int episodes = remaining["episodes"];
+  std::string text = remaining["until_limit"].get<bool>()
+                         ? fmt::format("at most {} more episode{}, to the limit", episodes, episodes == 1 ? "" : "s")
+                         : fmt::format("{} more episode{} by the trend", episodes, episodes == 1 ? "" : "s");
+  if (remaining["seconds"].is_number()) text += fmt::format(", {}", duration_text(remaining["seconds"].get<double>()));
+  return "\n  to go: " + text + " (" + remaining["why"].get<std::string>() + ")";
+}
+
 }  // namespace
 
 json run_status(const RunRecord& run) {
@@ -82,12 +215,16 @@ json run_status(const RunRecord& run) {
                  {"message", nullptr},
                  {"at_most", at_most},
                  {"progress", nullptr},
+                 {"job", present_job(run)},
+                 {"records", run.journal.size()},
                  {"episodes", json::array()}};
+  const bool has_job = status["job"].is_object() && !status["job"].value("over", false);
   if (const auto holder = FolderLock::holder(run.folder)) {
     status["state"] = "running";
     status["held_by"] = *holder;
   } else {
     describe_rest(run, status);
+    if (has_job) status["state"] = status["job"]["state"] == "PENDING" ? "queued" : "running";
   }
   const Present present = present_stage(run, at_most);
   status["episode"] = present.episode;
@@ -96,6 +233,10 @@ json run_status(const RunRecord& run) {
   status["condition"] = condition_text(present.state.condition);
   if (const auto progress = read_progress(present.state.folder))
     status["progress"] = read_json(present.state.folder / "progress.json");
+  for (const char* quantity : {"mean_solid_temperature", "cohesive_zone_height"})
+    status[quantity] = last_known(run, present, quantity);
+  status["remaining"] = remaining(run, present, at_most);
+  status["warnings"] = last_warnings(run, present);
   for (const json& record : run.journal)
     if (record.value("event", "") == "episode-judged")
       status["episodes"].push_back(
@@ -116,12 +257,24 @@ std::string status_text(const json& status) {
                         ? progress_line(place, progress)
                         : fmt::format("episode {} of at most {} · {} · {}", place.episode, place.at_most,
                                       stage_name(place.kind), condition));
+  if (status["job"].is_object())
+    text += fmt::format("\n  job {}: {} {}", status["job"]["number"].get<std::string>(),
+                        status["job"]["state"].is_string() ? status["job"]["state"].get<std::string>() : "not known",
+                        status["job"]["reason"].get<std::string>());
+  std::string known;
+  for (const char* quantity : {"mean_solid_temperature", "cohesive_zone_height"})
+    if (status[quantity].is_number())
+      known += (known.empty() ? "" : " · ") + monitored_text(quantity, status[quantity].get<double>());
+  if (!known.empty()) text += "\n  last known: " + known;
+  if (status["state"] == "running" || status["state"] == "queued" || status["state"] == "stopped")
+    text += remaining_text(status["remaining"]);
   for (const json& episode : status["episodes"]) {
     text += fmt::format("\n  episode {}: change over criterion:", episode["index"].get<int>());
     for (const auto& [rule, change] : episode["change"].items())
       text += fmt::format(" {} {}", rule, change.is_null() ? "-" : fmt::format("{:.3g}", change.get<double>()));
     if (episode["met"].get<bool>()) text += " (met)";
   }
+  for (const json& warning : status["warnings"]) text += "\n  note: " + warning.get<std::string>();
   return text;
 }
 

@@ -4,7 +4,7 @@ namespace cupola {
 
 SignalWatch::SignalWatch() {
   sigemptyset(&watched_);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&watched_, signal);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGCHLD}) sigaddset(&watched_, signal);
   sigprocmask(SIG_BLOCK, &watched_, &former_);
   // A terminal that has gone must not end the run: writing to it fails instead.
   std::signal(SIGPIPE, SIG_IGN);
@@ -22,7 +22,8 @@ bool SignalWatch::take(std::chrono::milliseconds at_most) {
   const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(at_most);
   const timespec timeout{seconds.count(), std::chrono::nanoseconds(at_most - seconds).count()};
   const int signal = sigtimedwait(&watched_, nullptr, &timeout);
-  if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) ++stop_requests_;
+  if (signal > 0 && signal != SIGCHLD) ++stop_requests_;
+  if (signal == SIGUSR1) time_is_up_ = true;
   return signal > 0;
 }
 
@@ -34,5 +35,7 @@ int SignalWatch::stop_requests() {
   }
   return stop_requests_;
 }
+
+bool SignalWatch::time_is_up() { return stop_requests() > 0 && time_is_up_; }
 
 }  // namespace cupola

@@ -4,7 +4,8 @@
 
 namespace cupola {
 
-/// Takes over the signals that ask the orchestrator to stop (SIGINT, SIGTERM, SIGHUP) and the one that a child has
+/// Takes over the signals that ask the orchestrator to stop (SIGINT, SIGTERM, SIGHUP; SIGUSR1 from a cluster
+/// before its time limit) and the one that a child has
 /// changed (SIGCHLD): they interrupt nothing and are read where it is safe.  Started programs get the former mask back.
 /// Make one object, before anything is started.
 class SignalWatch {
@@ -22,6 +23,9 @@ class SignalWatch {
   /// How often a stop has been asked for so far.
   [[nodiscard]] int stop_requests();
 
+  /// Whether the cluster has asked for the stop because the time is up (SIGUSR1).
+  [[nodiscard]] bool time_is_up();
+
   /// The signal mask to give to started programs.
   [[nodiscard]] const sigset_t& former_mask() const { return former_; }
 
@@ -31,6 +35,7 @@ class SignalWatch {
   sigset_t watched_{};
   sigset_t former_{};
   int stop_requests_ = 0;
+  bool time_is_up_ = false;
 };
 
 }  // namespace cupola

@@ -144,6 +144,33 @@ bool StageRunner::judge_end(const StagePlace& place, int status, Patience& patie
   return true;
 }
 
+bool StageRunner::judge_job(const StagePlace& place, const JobEnd& end, Patience& patience) {
+  const std::filesystem::path task = folder(place);
+  if (has_manifest(task)) return true;
+  if (const auto failure = read_failure(task)) return judge_end(place, failure->value("code", 0), patience);
+  json content = about(place);
+  content["why"] = end.sentence;
+  if (end.by_hand || signals_.stop_requests() > 0) {
+    run_.journal().append("stage-stopped", content);
+    if (end.by_hand) view_.say(end.sentence + " by hand");
+    return false;
+  }
+  if (!end.cut_off) return judge_end(place, end.status.value_or(-1), patience);
+  run_.journal().append("stage-stopped", content);
+  const auto progress = read_progress(task);
+  const long step = progress ? progress->step : -1;
+  patience.idle_jobs = step > patience.last_step ? 0 : patience.idle_jobs + 1;
+  patience.last_step = std::max(step, patience.last_step);
+  constexpr int most_idle_jobs = 3;
+  if (patience.idle_jobs >= most_idle_jobs)
+    throw Failure(ExitCode::stopped,
+                  fmt::format("{}: {} jobs on end got no further ({}). Give launch.slurm.time more, or see {}. "
+                              "`cupola resume` tries again.",
+                              name_of(place), most_idle_jobs, end.sentence, (task / "stage.log").string()));
+  view_.say(fmt::format("{}: cut off by the cluster; the next job goes on from its checkpoint", end.sentence));
+  return true;
+}
+
 void StageRunner::be_patient(const StagePlace& place, int status, Patience& patience) {
   const std::filesystem::path task = folder(place);
   if (const long step = checkpoint_step(task); step > patience.step_lived) {

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
+#include "orchestrator/launch/job_script.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
@@ -54,16 +56,29 @@ Command StageLauncher::prepare(TaskKind kind, const std::filesystem::path& task_
   return command;
 }
 
-Command StageLauncher::run(TaskKind kind, const std::filesystem::path& task_folder, int ranks) const {
-  Command command = mpirun(ranks, {program(kind).string(), task_folder.string()});
+Command StageLauncher::run(TaskKind kind, const std::filesystem::path& task_folder, const Launch& launch) const {
+  Command command = mpirun(launch.ranks, {program(kind).string(), task_folder.string()});
+  if (launch.slurm && in_allocation_for(launch.ranks)) command.words = words_in_job(kind, task_folder, launch);
   command.log = task_folder / log_name;
   return command;
+}
+
+std::vector<std::string> StageLauncher::words_in_job(TaskKind kind, const std::filesystem::path& task_folder,
+                                                     const Launch& launch) const {
+  return ranks_in_job(launch.slurm.value().starter, launch.ranks, {program(kind).string(), task_folder.string()});
+}
+
+bool in_allocation_for(int ranks) {
+  const char* job = std::getenv("SLURM_JOB_ID");
+  const char* places = std::getenv("SLURM_NTASKS");
+  if (job == nullptr) return false;
+  return (places != nullptr ? std::atoi(places) : 1) >= ranks;
 }
 
 Command mpirun(int ranks, const std::vector<std::string>& program_and_arguments) {
   Command command;
   command.words = {"mpirun", "-n", std::to_string(ranks), "--bind-to", "none"};
-  if (ranks > physical_cores()) command.words.emplace_back("--oversubscribe");
+  if (ranks > physical_cores() && std::getenv("SLURM_JOB_ID") == nullptr) command.words.emplace_back("--oversubscribe");
   command.words.insert(command.words.end(), program_and_arguments.begin(), program_and_arguments.end());
   // A rank that waits lets others work: where the cores are shared, waiting in a loop would take most of them.
   command.environment.emplace("OMPI_MCA_mpi_yield_when_idle", "1");

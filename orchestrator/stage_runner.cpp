@@ -41,6 +41,10 @@ std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
   for (;;) {
     const StageState state = stage_state(run_.path(), run_.journal().records(), place.episode, place.kind);
     place.attempt = state.attempt;
+    if (const auto end = jobs_.find_again(place)) {
+      if (!judge_job(place, *end, patience)) return std::nullopt;
+      continue;
+    }
     if (state.condition == Condition::finished) {
       accept(place, state);
       return state.folder;
@@ -119,22 +123,36 @@ void StageRunner::wait_for_orphan(const StagePlace& place, const StageState& sta
 bool StageRunner::run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,
                               Patience& patience) {
   ++patience.starts;
-  if (const int status = make_ready(place, inputs); status != 0) return judge_end(place, status, patience);
-  if (signals_.stop_requests() > 0) return false;
   const std::filesystem::path task = folder(place);
+  make_task(place, inputs);
+  Launch launch = run_.campaign().launch;
+  launch.ranks = ranks();
+  if (launch.slurm && !in_allocation_for(launch.ranks)) {
+    const auto begin = std::chrono::steady_clock::now();
+    const JobEnd end = jobs_.run(place);
+    waited_ += std::chrono::steady_clock::now() - begin;
+    return judge_job(place, end, patience);
+  }
+  if (const int status = make_ready(place); status != 0) return judge_end(place, status, patience);
+  if (signals_.stop_requests() > 0) return false;
   const int status =
-      run_to_end(place, launcher_.run(place.kind, task, ranks()), "stage-started", {{"ranks", ranks()}}, true);
+      run_to_end(place, launcher_.run(place.kind, task, launch), "stage-started", {{"ranks", launch.ranks}}, true);
   return judge_end(place, status, patience);
 }
 
-int StageRunner::make_ready(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs) {
+void StageRunner::make_task(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs) {
   const std::filesystem::path task = folder(place);
-  const auto& journal = run_.journal().records();
-  const json* preparing = last_record(journal, "stage-preparing", place.episode, place.kind, place.attempt);
+  const json* preparing =
+      last_record(run_.journal().records(), "stage-preparing", place.episode, place.kind, place.attempt);
   ensure_task(task, stage_task(place.kind, place.episode, campaign_in_force(), run_.campaign_hash(), inputs, task),
               preparing != nullptr ? preparing->value("task_hash", "") : "");
   // What an earlier start complained of (a full disk, say) is in the journal; this start may do better.
   std::filesystem::remove(task / "failure.json");
+}
+
+int StageRunner::make_ready(const StagePlace& place) {
+  const std::filesystem::path task = folder(place);
+  const auto& journal = run_.journal().records();
   const CaseCondition condition = case_condition(journal, place.episode, place.kind, place.attempt, task, ranks());
   if (condition == CaseCondition::ready) return 0;
   if (condition == CaseCondition::damaged) {

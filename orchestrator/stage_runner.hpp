@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "orchestrator/launch/slurm_stage.hpp"
 #include "orchestrator/progress_view.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/signal_watch.hpp"
@@ -28,7 +29,7 @@ class StageRunner {
  public:
   /// All are kept by reference.
   StageRunner(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view)
-      : run_(run), launcher_(launcher), signals_(signals), view_(view) {}
+      : run_(run), launcher_(launcher), signals_(signals), view_(view), jobs_(run, launcher, signals, view) {}
 
   /// @param inputs files by the names of `Task::inputs`
   /// @return the finished task folder; none: stopped on request, with what is there left to go on from
@@ -45,6 +46,8 @@ class StageRunner {
     int retries = 0;      ///< attempts begun after one that went bad
     int deaths = 0;       ///< ends without a word since the checkpoint last got on
     long step_lived = 0;  ///< step of the checkpoint at the last death
+    int idle_jobs = 0;    ///< jobs on end that the cluster cut off before they came any further
+    long last_step = -1;  ///< of the last job that was cut off
   };
 
   void accept(const StagePlace& place, const StageState& state);
@@ -53,9 +56,10 @@ class StageRunner {
   /// Prepares and runs the attempt. @return false where a stop was asked for or the stage was stopped
   bool run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,
                    Patience& patience);
-  /// Sees that the task is there and its OpenFOAM case prepared. @return exit status of the preparation; 0 where there
-  /// was nothing to do
-  int make_ready(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs);
+  /// Sees that the task is there, and the one the journal knows.
+  void make_task(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs);
+  /// Sees that its OpenFOAM case is prepared. @return exit status of the preparation; 0 where there was nothing to do
+  int make_ready(const StagePlace& place);
   /// @param content of the event, @param stoppable whether a request to stop is passed on
   /// @return exit status
   int run_to_end(const StagePlace& place, Command command, const std::string& event, nlohmann::json content,
@@ -64,6 +68,8 @@ class StageRunner {
   void be_patient(const StagePlace& place, int status, Patience& patience);
   /// @return false where it was stopped
   bool judge_end(const StagePlace& place, int status, Patience& patience);
+  /// The same for a stage that was a job of Slurm.
+  bool judge_job(const StagePlace& place, const JobEnd& end, Patience& patience);
   /// `dem stage of episode 2`
   [[nodiscard]] static std::string name_of(const StagePlace& place);
   [[nodiscard]] Campaign campaign_in_force() const;
@@ -75,6 +81,7 @@ class StageRunner {
   const StageLauncher& launcher_;
   SignalWatch& signals_;
   ProgressView& view_;
+  SlurmStage jobs_;
   std::chrono::duration<double> waited_{0};
 };
 

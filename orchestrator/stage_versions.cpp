@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 
+#include "orchestrator/built_with.hpp"
 #include "orchestrator/run_check.hpp"
 #include "schemas/version.hpp"
 
@@ -63,7 +64,7 @@ json in_force(const json& information, const std::vector<json>& journal) {
 }  // namespace
 
 json present_versions(const StageLauncher& launcher) {
-  json versions = {{"cupola", program_version}};
+  json versions = program_versions();
   for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer}) {
     const std::string said = output_of(launcher.program(kind), "--versions");
     const json of_stage = json::parse(said, nullptr, false);
@@ -76,7 +77,7 @@ json present_versions(const StageLauncher& launcher) {
                     fmt::format("{} is of version {}, cupola of {}: programs of one version belong together. Build or "
                                 "install all three again.",
                                 launcher.program(kind).string(), of_stage.value("cupola", "?"), program_version));
-    versions.update(of_stage);
+    for (const auto& [name, version] : of_stage.items()) versions[name] = version;
   }
   return versions;
 }

@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// Versions of the program and of the libraries its stages are built on, as the stages' programs say them: `cupola`,
-/// `hdf5`, `mpi`, `openfoam`, `liggghts`.
+/// Versions of the program and its libraries: what it was built with, and for the libraries of the stages what the
+/// stages' programs find now.
 /// @throws Failure input_output where a stage's program cannot be started or comes from another version of cupola
 nlohmann::json present_versions(const StageLauncher& launcher);
 

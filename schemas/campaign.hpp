@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "schemas/property_curve.hpp"
+
 /// The campaign file as a typed value, SI throughout, nothing left open.  One struct a section of the YAML file, one
 /// member a key, same names.  `read_campaign` (campaign_reader.hpp) makes it; `resolved_yaml` (resolved_campaign.hpp)
 /// writes it back.
@@ -39,27 +41,56 @@ struct MeshSettings {
 /// A gas inlet: an opening in a side wall (a tuyere, centred at y = 0 and at `z`), or the whole bottom.
 struct Inlet {
   enum class Side { left, right, bottom };
+  enum class Given { mass_flow, velocity, pressure };
   std::string name;
   Side side = Side::left;
   double z = 0;                      ///< m, centre of the opening; unused for `bottom`
   std::array<double, 2> size{0, 0};  ///< m: extent along y, extent along the wall's height; unused for `bottom`
+  Given given = Given::mass_flow;    ///< which of the next three the campaign states; the others are 0
   double mass_flow = 0;              ///< kg/s
+  double velocity = 0;               ///< m/s, mean in the opening
+  double pressure = 0;               ///< Pa, static, absolute, in the opening
   double total_temperature = 293;    ///< K
 };
 
+/// Sutherland's formula for the viscosity of a gas.
+struct Sutherland {
+  double viscosity = 0;  ///< Pa s, at the temperature `at`
+  double at = 0;         ///< K
+  double constant = 0;   ///< K
+};
+
+/// Polynomials of the heat capacity, enthalpy and entropy of an ideal gas, as in the JANAF and NASA tables (7
+/// coefficients).
+struct JanafPolynomials {
+  double from = 0;    ///< K
+  double common = 0;  ///< K, where the two ranges meet
+  double to = 0;      ///< K
+  std::array<double, 7> low{};
+  std::array<double, 7> high{};
+};
+
 struct Gas {
+  enum class ViscosityModel { constant, sutherland };
+  enum class HeatCapacityModel { constant, janaf };
   std::string species;       ///< a preset (`air`, `nitrogen`, `blast`) or a name for the report
   double molar_mass = 0;     ///< kg/mol
-  double heat_capacity = 0;  ///< J/kg/K, at constant pressure
-  double viscosity = 0;      ///< Pa s
+  double heat_capacity = 0;  ///< J/kg/K, at constant pressure (heat_capacity_model constant)
+  double viscosity = 0;      ///< Pa s (viscosity_model constant)
   double prandtl = 0;        ///< 1
   std::vector<Inlet> inlets;
   double outlet_pressure = 1e5;  ///< Pa
+  ViscosityModel viscosity_model = ViscosityModel::constant;
+  Sutherland sutherland;
+  HeatCapacityModel heat_capacity_model = HeatCapacityModel::constant;
+  JanafPolynomials janaf;
 };
 
 struct WallHeatLoss {
+  enum class On { gas, solids, both };
   double coefficient = 0;  ///< W/m2/K
   double ambient = 293;    ///< K
+  On on = On::gas;         ///< both: the gas by the void fraction, the solids by the rest of the wall's area
 };
 
 struct Scene {
@@ -70,17 +101,18 @@ struct Scene {
 };
 
 struct Softening {
-  double from = 0;    ///< K, softening begins
-  double melted = 0;  ///< K, the grain has melted and is removed
+  double from = 0;         ///< K, softening begins
+  double melted = 0;       ///< K, the grain has melted and is removed
+  double latent_heat = 0;  ///< J/kg, taken up evenly between the two temperatures
 };
 
 struct Species {
   std::string name;
-  double diameter = 0;         ///< m, of the grain
-  double coarse_graining = 1;  ///< parcel diameter over grain diameter
-  double density = 0;          ///< kg/m3
-  double heat_capacity = 0;    ///< J/kg/K
-  double conductivity = 0;     ///< W/m/K
+  double diameter = 0;          ///< m, of the grain
+  double coarse_graining = 1;   ///< parcel diameter over grain diameter
+  double density = 0;           ///< kg/m3
+  PropertyCurve heat_capacity;  ///< J/kg/K, over the temperature, without latent heat
+  PropertyCurve conductivity;   ///< W/m/K, of the grain, over the temperature
   std::optional<Softening> softening;
   double none_below = 0;  ///< m; a softening species that gets below this height is removed and counted as unmelted
 
@@ -111,7 +143,13 @@ enum class DragLaw { ergun, gidaspow, beetstra };
 
 /// Present only where heat is on.
 struct Heat {
+  enum class Convection { ranz_marshall, gunn, wakao };
+  enum class BedConduction { carson, zehner_bauer_schluender, mixture };
   double nusselt_factor = 1;
+  Convection convection = Convection::ranz_marshall;
+  BedConduction bed_conduction = BedConduction::carson;
+  double emissivity = 0.8;             ///< of the grains (zehner-bauer-schluender)
+  bool intragrain_resistance = false;  ///< Biot correction of the heat transfer coefficient
 };
 
 /// Guessed cohesive zone: z = tip - slope |x|; below it one temperature, above it another.
@@ -172,7 +210,7 @@ struct DisplacementExcludes {
 };
 
 struct TracerSettings {
-  enum class GasModel { none, darcy_forchheimer };
+  enum class GasModel { none, darcy_forchheimer, navier_stokes };
   enum class Displacement { none, random, relaxation, random_and_relaxation };
   enum class Stop { duration, steady };
   enum class Resolve { automatic, every_step };
@@ -182,9 +220,10 @@ struct TracerSettings {
   double remaining_change = 0.01;   ///< `stop.remaining_change` (steady), over rms(T - 293 K); default: `accuracy`
   std::optional<double> time_step;  ///< s; absent: auto
   GasModel gas = GasModel::darcy_forchheimer;
-  double accuracy = 0.01;       ///< wanted relative error
-  double tracers_per_cell = 4;  ///< at least
-  bool clean_field = true;      ///< smooth and project the granular field (docs: cleaning)
+  bool compare_gas_models = false;  ///< solve the last state with both and report the difference
+  double accuracy = 0.01;           ///< wanted relative error
+  double tracers_per_cell = 4;      ///< at least
+  bool clean_field = true;          ///< smooth and project the granular field (docs: cleaning)
   int smoothing_passes = 4;
   Displacement displacement = Displacement::none;
   double displacement_coefficient = 5e-4;  ///< m2/s, D0 of the random displacement

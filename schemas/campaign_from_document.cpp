@@ -81,6 +81,27 @@ class Section {
     }
   }
 
+  /// A number, or a table of rows [temperature, value]; NaN where it is neither.
+  void need(const std::string& key, PropertyCurve& value) const {
+    const auto* found = find(key);
+    if (found == nullptr || !found->is_array()) {
+      double constant = unknown;
+      read(key, constant);
+      value = constant;
+      return;
+    }
+    std::vector<std::array<double, 2>> rows;
+    for (const auto& row : *found) rows.push_back(two_numbers(row));
+    value = rows.empty() ? PropertyCurve(unknown) : PropertyCurve(std::move(rows));
+  }
+  template <std::size_t count>
+  void read(const std::string& key, std::array<double, count>& values) const {
+    const auto* found = find(key);
+    if (found == nullptr || !found->is_array()) return;
+    for (std::size_t i = 0; i < count; ++i)
+      values[i] = i < found->size() && found->at(i).is_number() ? found->at(i).get<double>() : unknown;
+  }
+
   static std::array<double, 2> two_numbers(const Json& value) {
     if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number())
       return {unknown, unknown};
@@ -148,6 +169,22 @@ Gas read_gas(const Section& section) {
   section.read("heat_capacity", gas.heat_capacity);
   section.read("viscosity", gas.viscosity);
   section.read("prandtl", gas.prandtl);
+  section.read("viscosity_model", gas.viscosity_model, words::viscosity_model);
+  gas.sutherland = known ? preset->sutherland : Sutherland{unknown, unknown, unknown};
+  if (const auto own = section.section("sutherland"); own.present()) {
+    own.need("viscosity", gas.sutherland.viscosity);
+    own.need("at", gas.sutherland.at);
+    own.need("constant", gas.sutherland.constant);
+  }
+  section.read("heat_capacity_model", gas.heat_capacity_model, words::heat_capacity_model);
+  gas.janaf = known ? preset->janaf : JanafPolynomials{unknown, unknown, unknown, {}, {}};
+  if (const auto own = section.section("janaf"); own.present()) {
+    own.need("from", gas.janaf.from);
+    own.need("common", gas.janaf.common);
+    own.need("to", gas.janaf.to);
+    own.read("low", gas.janaf.low);
+    own.read("high", gas.janaf.high);
+  }
   for (const auto& item : section.list("inlets")) {
     Inlet inlet;
     item.read("name", inlet.name);
@@ -156,7 +193,15 @@ Gas read_gas(const Section& section) {
       item.need("z", inlet.z);
       item.read("size", inlet.size);
     }
-    item.need("mass_flow", inlet.mass_flow);
+    if (item.find("velocity") != nullptr) {
+      inlet.given = Inlet::Given::velocity;
+      item.need("velocity", inlet.velocity);
+    } else if (item.find("pressure") != nullptr) {
+      inlet.given = Inlet::Given::pressure;
+      item.need("pressure", inlet.pressure);
+    } else {
+      item.need("mass_flow", inlet.mass_flow);
+    }
     item.need("total_temperature", inlet.total_temperature);
     gas.inlets.push_back(inlet);
   }
@@ -173,6 +218,7 @@ Scene read_scene(const Section& section) {
     scene.heat_loss.emplace();
     loss.need("coefficient", scene.heat_loss->coefficient);
     loss.read("ambient", scene.heat_loss->ambient);
+    loss.read("on", scene.heat_loss->on, words::heat_loss_on);
   }
   return scene;
 }
@@ -189,6 +235,7 @@ Species read_species(const std::string& name, const Section& section) {
     species.softening.emplace();
     softening.need("from", species.softening->from);
     softening.need("melted", species.softening->melted);
+    softening.read("latent_heat", species.softening->latent_heat);
   }
   section.need("none_below", species.none_below);
   return species;
@@ -291,6 +338,7 @@ TracerSettings read_tracer(const Section& section, bool gas) {
   section.read("time_step", tracer.time_step);
   section.read("gas", tracer.gas, words::tracer_gas);
   section.read("resolve", tracer.resolve, words::tracer_resolve);
+  section.read("compare_gas_models", tracer.compare_gas_models);
   section.read("accuracy", tracer.accuracy);
   const auto stop = section.section("stop");
   stop.read("when", tracer.stop, words::tracer_stop);
@@ -378,6 +426,10 @@ Campaign campaign_from_document(const YamlDocument& document) {
   if (const auto heat = root.section("heat"); heat.present()) {
     campaign.heat.emplace();
     heat.read("nusselt_factor", campaign.heat->nusselt_factor);
+    heat.read("convection", campaign.heat->convection, words::convection);
+    heat.read("bed_conduction", campaign.heat->bed_conduction, words::bed_conduction);
+    heat.read("emissivity", campaign.heat->emissivity);
+    heat.read("intragrain_resistance", campaign.heat->intragrain_resistance);
   }
   if (const auto v = root.section("initial").section("cohesive_zone").section("inverted_v"); v.present()) {
     auto& guess = campaign.initial.cohesive_zone.emplace();

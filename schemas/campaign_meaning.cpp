@@ -68,6 +68,15 @@ void check_geometry(Context& context) {
   }
 }
 
+void check_curve(Context& context, const PropertyCurve& curve, const std::string& path) {
+  const auto& rows = curve.points();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (rows[i][0] <= rows[i - 1][0])
+      context.add(path_of(path, i), "temperatures must rise from row to row, but {} K follows {} K", rows[i][0],
+                  rows[i - 1][0]);
+  }
+}
+
 void check_species(Context& context) {
   const auto& campaign = context.campaign;
   for (const auto& species : campaign.species) {
@@ -75,6 +84,8 @@ void check_species(Context& context) {
     if (species.name == "wall")
       context.add(path, "`wall` is the name of the walls in contacts.pairs: give the species another");
     if (species.name == "ring") context.add(path, "`ring` is a key of charging.layers: give the species another name");
+    check_curve(context, species.heat_capacity, path_of(path, "heat_capacity"));
+    check_curve(context, species.conductivity, path_of(path, "conductivity"));
     if (!species.softening) {
       if (context.has(path_of(path, "none_below")))
         context.add(path_of(path, "none_below"), "only a species with `softening` can have this");

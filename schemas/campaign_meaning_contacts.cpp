@@ -11,6 +11,25 @@ void check_contacts(Context& context) {
       !context.has("contacts.stiffness")) {
     context.add("contacts", "the model linear-spring needs `stiffness` (like 1e4 N/m)");
   }
+  const auto& contacts = context.campaign.contacts;
+  const bool hertz = contacts.model == Contacts::Model::hertz;
+  constexpr double least_modulus = 5e6;  // LIGGGHTS accepts no softer grain
+  for (const auto& [key, modulus] : {std::pair{"contacts.youngs_modulus", contacts.youngs_modulus},
+                                     std::pair{"contacts.wall_youngs_modulus", contacts.wall_youngs_modulus}}) {
+    if (hertz && modulus < least_modulus) {
+      context.add(key,
+                  "{} Pa is softer than 5 MPa: parcels would sink into each other, and the engine does not take it",
+                  modulus);
+    }
+  }
+  constexpr double least_restitution = 0.05;  // the damping of a Hertz contact is not defined below, says LIGGGHTS
+  for (const auto& [pair, contact] : contacts.pairs) {
+    if (hertz && contact.restitution <= least_restitution) {
+      context.add(path_of(path_of("contacts.pairs", pair), "restitution"),
+                  "{} is too small for Hertz contacts: it must exceed 0.05 (linear springs take less)",
+                  contact.restitution);
+    }
+  }
   const auto& root = context.document.root;
   if (!context.named || context.names.empty() || !context.has("contacts.pairs") ||
       !root["contacts"]["pairs"].is_object()) {

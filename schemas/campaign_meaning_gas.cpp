@@ -1,5 +1,6 @@
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -9,6 +10,8 @@
 
 namespace cupola::meaning {
 namespace {
+
+const std::vector<std::string> words_for_gas{"air", "nitrogen", "blast"};
 
 void check_opening(Context& context, const Inlet& inlet, const std::string& path) {
   const auto& campaign = context.campaign;
@@ -35,6 +38,40 @@ void check_opening(Context& context, const Inlet& inlet, const std::string& path
   }
 }
 
+/// An inlet states one of three.  Where another key is misspelt, that has been said already.
+void check_what_flows_in(Context& context, const std::string& path) {
+  std::vector<std::string> given;
+  for (const auto* key : {"mass_flow", "velocity", "pressure"}) {
+    if (context.has(path_of(path, key))) given.emplace_back(key);
+  }
+  if (given.size() > 1) {
+    context.add(path_of(path, given[1]), "an inlet states one of mass_flow, velocity and pressure, but here stand {}",
+                fmt::join(given, " and "));
+  }
+  const auto reported = [&](const CampaignError& error) { return error.key.starts_with(path + "."); };
+  if (given.empty() && std::none_of(context.document.errors.begin(), context.document.errors.end(), reported)) {
+    context.add_at_key(path,
+                       "one of the keys mass_flow, velocity and pressure is missing: expected a mass flow (like "
+                       "1.4 kg/s)");
+  }
+}
+
+void check_pressure(Context& context, const Inlet& inlet, const std::string& path) {
+  const double outlet = context.campaign.scene.gas->outlet_pressure;
+  if (inlet.given == Inlet::Given::pressure && inlet.pressure <= outlet) {
+    context.add(path_of(path, "pressure"), "no gas flows in at {} Pa against {} Pa at the outlet", inlet.pressure,
+                outlet);
+  }
+}
+
+void check_janaf(Context& context) {
+  const auto& janaf = context.campaign.scene.gas->janaf;
+  if (janaf.from >= janaf.common || janaf.common >= janaf.to) {
+    context.add(context.has("scene.gas.janaf") ? "scene.gas.janaf" : "scene.gas",
+                "expected from < common < to, but these are {}, {} and {} K", janaf.from, janaf.common, janaf.to);
+  }
+}
+
 void check_inlet(Context& context, std::size_t index) {
   const auto& campaign = context.campaign;
   const auto& inlets = campaign.scene.gas->inlets;
@@ -43,6 +80,8 @@ void check_inlet(Context& context, std::size_t index) {
   static const std::set<std::string> patches{"wall", "bottom", "outlet", "front", "back"};
   if (patches.contains(inlet.name))
     context.add(path_of(path, "name"), "`{}` is a patch of the mesh already: choose another name", inlet.name);
+  check_what_flows_in(context, path);
+  check_pressure(context, inlet, path);
   const bool in_side = inlet.side != Inlet::Side::bottom;
   for (const auto* key : {"z", "size"}) {
     if (in_side && context.has(path_of(path, "side")) && !context.has(path_of(path, key)))
@@ -89,9 +128,26 @@ void check_gas(Context& context) {
   for (const auto& [key, value] : properties) {
     if (std::isnan(value) && !context.has(path_of("scene.gas", key))) missing.emplace_back(key);
   }
+  const bool known = std::find(words_for_gas.begin(), words_for_gas.end(), gas.species) != words_for_gas.end();
+  const std::array<std::pair<const char*, bool>, 2> models{
+      {{"sutherland", gas.viscosity_model == Gas::ViscosityModel::sutherland},
+       {"janaf", gas.heat_capacity_model == Gas::HeatCapacityModel::janaf}}};
+  for (const auto& [key, asked] : models) {
+    if (asked && !known && !context.has(path_of("scene.gas", key)))
+      context.add("scene.gas", "this gas needs the key `{}`", key);
+  }
+  check_janaf(context);
   if (!missing.empty() && context.has("scene.gas.species")) {
     context.add("scene.gas.species", "`{}` is not a known gas (air, nitrogen, blast){}: expected one, or also its {}",
-                gas.species, suggestion(gas.species, {"air", "nitrogen", "blast"}), fmt::join(missing, ", "));
+                gas.species, suggestion(gas.species, words_for_gas), fmt::join(missing, ", "));
+  }
+  constexpr double molar_gas_constant = 8.314462618;  // J/mol/K
+  const double least_heat_capacity = molar_gas_constant / gas.molar_mass;
+  if (gas.heat_capacity <= least_heat_capacity) {
+    context.add("scene.gas.heat_capacity",
+                "{} J/kg/K at constant pressure is not possible for an ideal gas of {} kg/mol: it must exceed the gas "
+                "constant, {:.4g} J/kg/K",
+                gas.heat_capacity, gas.molar_mass, least_heat_capacity);
   }
   for (std::size_t i = 0; i < gas.inlets.size(); ++i) check_inlet(context, i);
 }

@@ -25,8 +25,6 @@ inline constexpr Table<DemSettings::GasModel, 2> dem_gas{
     {{DemSettings::GasModel::none, "none"}, {DemSettings::GasModel::quasi_steady, "quasi-steady"}}};
 inline constexpr Table<DemSettings::Stop, 2> dem_stop{
     {{DemSettings::Stop::fields_converged, "fields-converged"}, {DemSettings::Stop::duration, "duration"}}};
-inline constexpr Table<TracerSettings::GasModel, 2> tracer_gas{
-    {{TracerSettings::GasModel::none, "none"}, {TracerSettings::GasModel::darcy_forchheimer, "darcy-forchheimer"}}};
 inline constexpr Table<TracerSettings::Displacement, 4> displacement{
     {{TracerSettings::Displacement::none, "none"},
      {TracerSettings::Displacement::random, "random"},
@@ -38,6 +36,23 @@ inline constexpr Table<TracerSettings::Resolve, 2> tracer_resolve{
     {{TracerSettings::Resolve::automatic, "auto"}, {TracerSettings::Resolve::every_step, "every-step"}}};
 inline constexpr Table<SlurmLaunch::Starter, 2> slurm_starter{
     {{SlurmLaunch::Starter::mpirun, "mpirun"}, {SlurmLaunch::Starter::srun, "srun"}}};
+inline constexpr Table<TracerSettings::GasModel, 3> tracer_gas{
+    {{TracerSettings::GasModel::none, "none"},
+     {TracerSettings::GasModel::darcy_forchheimer, "darcy-forchheimer"},
+     {TracerSettings::GasModel::navier_stokes, "navier-stokes"}}};
+inline constexpr Table<Gas::ViscosityModel, 2> viscosity_model{
+    {{Gas::ViscosityModel::constant, "constant"}, {Gas::ViscosityModel::sutherland, "sutherland"}}};
+inline constexpr Table<Gas::HeatCapacityModel, 2> heat_capacity_model{
+    {{Gas::HeatCapacityModel::constant, "constant"}, {Gas::HeatCapacityModel::janaf, "janaf"}}};
+inline constexpr Table<WallHeatLoss::On, 3> heat_loss_on{
+    {{WallHeatLoss::On::gas, "gas"}, {WallHeatLoss::On::solids, "solids"}, {WallHeatLoss::On::both, "both"}}};
+inline constexpr Table<Heat::Convection, 3> convection{{{Heat::Convection::ranz_marshall, "ranz-marshall"},
+                                                        {Heat::Convection::gunn, "gunn"},
+                                                        {Heat::Convection::wakao, "wakao"}}};
+inline constexpr Table<Heat::BedConduction, 3> bed_conduction{
+    {{Heat::BedConduction::carson, "carson"},
+     {Heat::BedConduction::zehner_bauer_schluender, "zehner-bauer-schluender"},
+     {Heat::BedConduction::mixture, "mixture"}}};
 inline constexpr Table<Strategy, 1> strategy{{{Strategy::march, "march"}}};
 
 template <typename Enum, std::size_t count>

@@ -35,17 +35,31 @@ Json gas_json(const Gas& gas) {
       item["z"] = inlet.z;
       item["size"] = inlet.size;
     }
-    item["mass_flow"] = inlet.mass_flow;
+    if (inlet.given == Inlet::Given::mass_flow) item["mass_flow"] = inlet.mass_flow;
+    if (inlet.given == Inlet::Given::velocity) item["velocity"] = inlet.velocity;
+    if (inlet.given == Inlet::Given::pressure) item["pressure"] = inlet.pressure;
     item["total_temperature"] = inlet.total_temperature;
     inlets.push_back(item);
   }
-  return {{"species", gas.species},
-          {"molar_mass", gas.molar_mass},
-          {"heat_capacity", gas.heat_capacity},
-          {"viscosity", gas.viscosity},
-          {"prandtl", gas.prandtl},
-          {"inlets", inlets},
-          {"outlet", {{"pressure", gas.outlet_pressure}}}};
+  Json json{{"species", gas.species},
+            {"molar_mass", gas.molar_mass},
+            {"heat_capacity", gas.heat_capacity},
+            {"viscosity", gas.viscosity},
+            {"prandtl", gas.prandtl},
+            {"viscosity_model", word(words::viscosity_model, gas.viscosity_model)},
+            {"heat_capacity_model", word(words::heat_capacity_model, gas.heat_capacity_model)}};
+  if (gas.viscosity_model == Gas::ViscosityModel::sutherland) {
+    json["sutherland"] = {
+        {"viscosity", gas.sutherland.viscosity}, {"at", gas.sutherland.at}, {"constant", gas.sutherland.constant}};
+  }
+  if (gas.heat_capacity_model == Gas::HeatCapacityModel::janaf) {
+    const auto& janaf = gas.janaf;
+    json["janaf"] = {
+        {"from", janaf.from}, {"common", janaf.common}, {"to", janaf.to}, {"low", janaf.low}, {"high", janaf.high}};
+  }
+  json["inlets"] = inlets;
+  json["outlet"] = {{"pressure", gas.outlet_pressure}};
+  return json;
 }
 
 Json scene_json(const Scene& scene) {
@@ -55,20 +69,28 @@ Json scene_json(const Scene& scene) {
   }
   if (scene.gas) json["gas"] = gas_json(*scene.gas);
   if (scene.heat_loss) {
-    json["walls"] = {
-        {"heat_loss", {{"coefficient", scene.heat_loss->coefficient}, {"ambient", scene.heat_loss->ambient}}}};
+    json["walls"] = {{"heat_loss",
+                      {{"coefficient", scene.heat_loss->coefficient},
+                       {"ambient", scene.heat_loss->ambient},
+                       {"on", word(words::heat_loss_on, scene.heat_loss->on)}}}};
   }
   return json;
+}
+
+Json curve_json(const PropertyCurve& curve) {
+  return curve.is_constant() ? Json(curve.points().front()[1]) : Json(curve.points());
 }
 
 Json species_json(const Species& species) {
   Json json{{"diameter", species.diameter},
             {"coarse_graining", species.coarse_graining},
             {"density", species.density},
-            {"heat_capacity", species.heat_capacity},
-            {"conductivity", species.conductivity}};
+            {"heat_capacity", curve_json(species.heat_capacity)},
+            {"conductivity", curve_json(species.conductivity)}};
   if (species.softening) {
-    json["softening"] = {{"from", species.softening->from}, {"melted", species.softening->melted}};
+    json["softening"] = {{"from", species.softening->from},
+                         {"melted", species.softening->melted},
+                         {"latent_heat", species.softening->latent_heat}};
     json["none_below"] = species.none_below;
   }
   return json;
@@ -136,6 +158,7 @@ Json tracer_json(const TracerSettings& tracer) {
           {"time_step", or_auto(tracer.time_step)},
           {"gas", word(words::tracer_gas, tracer.gas)},
           {"resolve", word(words::tracer_resolve, tracer.resolve)},
+          {"compare_gas_models", tracer.compare_gas_models},
           {"accuracy", tracer.accuracy},
           {"tracers_per_cell", tracer.tracers_per_cell},
           {"clean_field", tracer.clean_field},
@@ -179,7 +202,13 @@ Json resolved_json(const Campaign& campaign) {
   for (const auto& species : campaign.species) json["species"][species.name] = species_json(species);
   json["contacts"] = contacts_json(campaign.contacts);
   json["drag"] = word(words::drag, campaign.drag);
-  if (campaign.heat) json["heat"] = {{"nusselt_factor", campaign.heat->nusselt_factor}};
+  if (const auto& heat = campaign.heat) {
+    json["heat"] = {{"nusselt_factor", heat->nusselt_factor},
+                    {"convection", word(words::convection, heat->convection)},
+                    {"bed_conduction", word(words::bed_conduction, heat->bed_conduction)},
+                    {"emissivity", heat->emissivity},
+                    {"intragrain_resistance", heat->intragrain_resistance}};
+  }
   json["initial"] = initial_json(campaign.initial);
   const auto& charging = campaign.charging;
   json["charging"] = {{"stock_line", charging.stock_line},

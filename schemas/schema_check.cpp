@@ -35,7 +35,13 @@ const Schema* member_schema(const Schema& schema, const std::string& key) {
   return nullptr;
 }
 
-const Schema* item_schema(const Schema& schema) { return schema.contains("items") ? &schema["items"] : nullptr; }
+/// Schema of an item of a list: the same for all, or one a place.
+const Schema* item_schema(const Schema& schema, std::size_t place) {
+  if (!schema.contains("items")) return nullptr;
+  const auto& items = schema["items"];
+  if (!items.is_array()) return &items;
+  return place < items.size() ? &items[place] : nullptr;
+}
 
 std::vector<std::string> known_keys(const Schema& schema) {
   std::vector<std::string> keys;
@@ -47,7 +53,7 @@ std::vector<std::string> known_keys(const Schema& schema) {
 
 /// First path of the schema that ends with this key: where a key in the wrong place belongs.
 std::string home_of(const Schema& schema, const std::string& key, const std::string& path) {
-  if (const auto* items = item_schema(schema)) return home_of(*items, key, fmt::format("{}[]", path));
+  if (const auto* items = item_schema(schema, 0)) return home_of(*items, key, fmt::format("{}[]", path));
   if (schema.contains("patternProperties"))
     return home_of(schema["patternProperties"].front(), key, path_of(path, "<name>"));
   if (schema.contains("additionalProperties") && schema["additionalProperties"].is_object()) {
@@ -76,6 +82,7 @@ std::string expected_kind(const Schema& schema) {
     auto text = describe_unit(schema["x-unit"]);
     if (schema.contains("x-words"))
       text += fmt::format(" or {}", fmt::join(schema["x-words"].get<std::vector<std::string>>(), ", "));
+    if (schema.contains("items")) text += " or a table over the temperature";
     return text;
   }
   if (!schema.contains("type")) return "something else";
@@ -121,8 +128,8 @@ class Check {
         if (const auto* inner = member_schema(schema, key)) convert(member, *inner, path_of(path, key));
       }
     } else if (value.is_array()) {
-      if (const auto* inner = item_schema(schema)) {
-        for (std::size_t i = 0; i < value.size(); ++i) convert(value[i], *inner, path_of(path, i));
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        if (const auto* inner = item_schema(schema, i)) convert(value[i], *inner, path_of(path, i));
       }
     } else if (value.is_string() && schema.contains("x-unit")) {
       convert_quantity(value, schema, path);
@@ -176,7 +183,7 @@ class Check {
       const auto key = context[i].substr(1, context[i].size() - 2);
       if (value->is_array()) {
         const auto index = std::stoul(key);
-        schema = item_schema(*schema);
+        schema = item_schema(*schema, index);
         value = &value->at(index);
         path = path_of(path, index);
       } else {

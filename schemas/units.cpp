@@ -34,7 +34,7 @@ struct Dimension {
   std::string_view example;
 };
 
-constexpr std::array<Dimension, 24> dimensions{{
+constexpr std::array<Dimension, 25> dimensions{{
     {"m", "a length", "0.5 m"},
     {"s", "a time", "5 s"},
     {"kg", "a mass", "270 kg"},
@@ -50,6 +50,7 @@ constexpr std::array<Dimension, 24> dimensions{{
     {"m2/s", "a diffusivity", "5e-4 m2/s"},
     {"m3/s", "a volume flow", "2 m3/s"},
     {"J/kg/K", "a specific heat capacity", "850 J/kg/K"},
+    {"J/kg", "a specific energy", "250 kJ/kg"},
     {"W/m/K", "a heat conductivity", "1.7 W/m/K"},
     {"W/m2/K", "a heat transfer coefficient", "20 W/m2/K"},
     {"kg/mol", "a molar mass", "28 g/mol"},

@@ -59,12 +59,12 @@ int main(int argc, char** argv) {
       "(docs/contracts.md)");
   app.set_version_flag("--version", std::string("cupola-dem ") + program_version);
   const std::map<std::string, std::string> libraries{
-      {"openfoam", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch},
-      {"liggghts", LAMMPS_VERSION}};
+      {"OpenFOAM", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch},
+      {"LIGGGHTS", LAMMPS_VERSION}};
   app.add_flag_callback(
       "--versions",
       [&] {
-        std::cout << program_versions(libraries) << "\n";
+        std::cout << versions_text(libraries) << "\n";
         throw CLI::Success();
       },
       "Print the versions of the program and its libraries as JSON");

@@ -8,10 +8,12 @@ double mean_temperature(const CellContents& contents, const Campaign& campaign) 
   double capacity = 0;
   double heat = 0;
   for (std::size_t s = 0; s < contents.volume.size(); ++s) {
-    const double factor = campaign.species[s].density * campaign.species[s].heat_capacity;
+    const Species& species = campaign.species[s];
     for (std::size_t c = 0; c < contents.volume[s].size(); ++c) {
-      capacity += factor * contents.volume[s][c];
-      heat += factor * contents.volume[s][c] * contents.temperature[s][c];
+      const double temperature = contents.temperature[s][c];
+      const double here = species.density * species.heat_capacity.at(temperature) * contents.volume[s][c];
+      capacity += here;
+      heat += here * temperature;
     }
   }
   return capacity > 0 ? heat / capacity : 0;

@@ -63,7 +63,8 @@ std::vector<Link> Conduction::links(const CellContents& contents, const BySpecie
   std::vector<std::vector<double>> conductivity(species, std::vector<double>(cells));
   for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      conductivity[s][c] = bed_conductivity_carson(campaign_.species[s].conductivity, solids[c] / mesh_.cell_volume[c]);
+      conductivity[s][c] = bed_conductivity_carson(campaign_.species[s].conductivity.at(contents.temperature[s][c]),
+                                                   solids[c] / mesh_.cell_volume[c]);
     }
     for (const Neighbours& pair : neighbours_) {
       const double a = conductivity[s][pair.first];
@@ -98,7 +99,7 @@ Conduction::Result Conduction::advance(const CellContents& contents, const BySpe
   std::vector<double> diagonal(species * cells);
   std::vector<double> source(species * cells);
   for (std::size_t s = 0; s < species; ++s) {
-    const double heat = campaign_.species[s].density * campaign_.species[s].heat_capacity;
+    const double heat = campaign_.species[s].density * campaign_.species[s].heat_capacity.at(293);
     for (std::size_t c = 0; c < cells; ++c) {
       const std::size_t i = s * cells + c;
       capacity[i] = heat * contents.volume[s][c];

@@ -4,6 +4,7 @@
 
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/ranz_marshall.hpp"
+#include "physics/closures/solid_enthalpy.hpp"
 
 namespace cupola {
 
@@ -25,7 +26,7 @@ void Exchange::set_rates(const std::vector<Vector3>& mass_flux, double step) {
     }
     std::vector<double> felt = coefficient_[s];
     kernel_.gather(felt);
-    const double factor = 6 / (species.diameter * species.density * species.heat_capacity);
+    const double factor = 6 / (species.diameter * species.density * species.heat_capacity.at(enthalpy_zero));
     for (std::size_t c = 0; c < cells; ++c) {
       const double x = factor * felt[c] * step;
       decay_[s][c] = std::exp(-x);

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "physics/closures/drag.hpp"
+#include "physics/plan/inlet_limit.hpp"
+#include "schemas/failure.hpp"
 
 namespace cupola {
 namespace {
@@ -23,7 +25,12 @@ GasModel::GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign
     : campaign_(campaign),
       flow_(foam, mesh, campaign),
       energy_(campaign.heat ? std::make_unique<GasEnergy>(foam, mesh, campaign) : nullptr),
-      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {}
+      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {
+  if (campaign.tracer.gas == TracerSettings::GasModel::navier_stokes) {
+    throw Failure(ExitCode::wrong_input, "tracer.gas: navier-stokes is not there yet; write darcy-forchheimer")
+        .at("key", "tracer.gas");
+  }
+}
 
 void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
   temperature_ = std::move(first_guess);
@@ -31,7 +38,15 @@ void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
   solve_flow_tightly(bed);
 }
 
-void GasModel::solve_flow_tightly(const BedState& bed) { solve_flow(bed, tight_tolerance, tight_iterations); }
+void GasModel::solve_flow_tightly(const BedState& bed) {
+  solve_flow(bed, tight_tolerance, tight_iterations);
+  const Gas& gas = *campaign_.scene.gas;
+  const auto blown = flow_.inlets();
+  for (std::size_t i = 0; i < blown.size(); ++i) {
+    const std::string refusal = inlet_refusal(gas, gas.inlets[i], blown[i].state);
+    if (!refusal.empty()) throw Failure(ExitCode::wrong_input, refusal).at("key", "scene.gas.inlets");
+  }
+}
 
 void GasModel::follow(const BedState& bed) {
   const std::vector<double> now = resistance(bed);

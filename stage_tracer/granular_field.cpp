@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/closures/softening.hpp"
 #include "physics/projection/bed_state.hpp"
 #include "schemas/failure.hpp"
 
@@ -48,11 +47,14 @@ double packing_near_stock(const BedMesh& mesh, const Campaign& campaign, const s
   }
   double volume = 0;
   double solids = 0;
-  for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    const double z = mesh.cell_centre[c][2];
-    if (!bed[c] || z < lower || z > upper) continue;
-    volume += mesh.cell_volume[c];
-    solids += mesh.cell_volume[c] * solids_fraction[c];
+  // Layers may be thinner than cells: the band is widened downwards until it holds some.
+  for (; volume == 0 && lower > 2 * campaign.bottom() - stock; lower -= 0.02 * (stock - campaign.bottom())) {
+    for (std::size_t c = 0; c < mesh.cells(); ++c) {
+      const double z = mesh.cell_centre[c][2];
+      if (!bed[c] || z < lower || z > upper) continue;
+      volume += mesh.cell_volume[c];
+      solids += mesh.cell_volume[c] * solids_fraction[c];
+    }
   }
   if (!(solids > 0)) {
     throw Failure(ExitCode::wrong_input,
@@ -74,9 +76,8 @@ std::vector<double> persistent_share(const BedMesh& mesh, const Campaign& campai
   }
   if (softening == nullptr) return share;
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    double degree = ore_temperature.empty() ? 0 : softening_degree(ore_temperature[c], *softening);
-    if (mesh.cell_centre[c][2] < none_below) degree = 1;
-    share[c] = charged_share + (1 - charged_share) * degree;
+    const bool molten = !ore_temperature.empty() && ore_temperature[c] >= softening->melted;
+    if (molten || mesh.cell_centre[c][2] < none_below) share[c] = 1;
   }
   return share;
 }

@@ -51,8 +51,9 @@ std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign);
 double packing_near_stock(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
                           const std::vector<double>& solids_fraction);
 
-/// f: share of the persistent species in the solids flux (MODEL 8): the charge's above the zone, 1 below it and below
-/// the height under which no melting species may be; inside it blended by the degree of softening.
+/// f: share of the persistent species in the solids flux (MODEL 8): the charge's where the melting species has not
+/// melted, 1 where it has and below the height under which none of it may be.  Softened ore keeps its mass, and with it
+/// its part of the flux, until it melts: a share that rose with the degree of softening would count it as coke.
 /// @param ore_temperature K, all cells: what the DEM stage softened and melted by; empty in a scene without heat
 std::vector<double> persistent_share(const BedMesh& mesh, const Campaign& campaign, double charged_share,
                                      const std::vector<double>& ore_temperature);

@@ -62,8 +62,8 @@ int main(int argc, char** argv) {
   app.add_flag_callback(
       "--versions",
       [] {
-        std::cout << cupola::program_versions(
-                         {{"openfoam", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch}})
+        std::cout << cupola::versions_text(
+                         {{"OpenFOAM", std::to_string(Foam::foamVersion::api) + "." + Foam::foamVersion::patch}})
                   << "\n";
         throw CLI::Success();
       },

@@ -75,8 +75,10 @@ bool mirror_symmetric(const Campaign& campaign) {
   double right = 0;
   if (campaign.scene.gas) {
     for (const Inlet& inlet : campaign.scene.gas->inlets) {
-      if (inlet.side == Inlet::Side::left) left += inlet.mass_flow;
-      if (inlet.side == Inlet::Side::right) right += inlet.mass_flow;
+      // Whatever the inlets state, the two sides must state the same.
+      const double stated = inlet.mass_flow + inlet.velocity + inlet.pressure;
+      if (inlet.side == Inlet::Side::left) left += stated;
+      if (inlet.side == Inlet::Side::right) right += stated;
     }
   }
   return std::abs(left - right) < 1e-6 * (left + right + 1);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "physics/closures/solid_enthalpy.hpp"
 #include "schemas/campaign.hpp"
 
 namespace cupola {
@@ -42,12 +43,9 @@ struct Tally {
   Tally& operator+=(const Tally& other);
 };
 
-/// Temperature that enthalpies count from (MODEL 19), K.
-inline constexpr double enthalpy_zero = 293;
-
-/// Enthalpy of a tracer, J.
+/// Enthalpy of a tracer from 293 K (MODEL 19), J.
 inline double enthalpy(const Species& species, double volume, double temperature) {
-  return volume * species.density * species.heat_capacity * (temperature - enthalpy_zero);
+  return volume * species.density * solid_enthalpy(species, temperature);
 }
 
 }  // namespace cupola

@@ -21,9 +21,12 @@ std::vector<double> flat(const std::vector<Vector3>& vectors) {
   return rows;
 }
 
-std::vector<double> capacity_weights(const Campaign& campaign, const BySpecies& volume, std::size_t species) {
+std::vector<double> capacity_weights(const Campaign& campaign, const BySpecies& volume, const BySpecies& temperature,
+                                     std::size_t species) {
   std::vector<double> weight = volume[species];
-  for (double& w : weight) w *= campaign.species[species].density * campaign.species[species].heat_capacity;
+  const Species& material = campaign.species[species];
+  for (std::size_t c = 0; c < weight.size(); ++c)
+    weight[c] *= material.density * material.heat_capacity.at(temperature[species][c]);
   return weight;
 }
 
@@ -39,7 +42,7 @@ SolidsTemperature solids_temperature(const Campaign& campaign, const BySpecies& 
   SolidsTemperature result{std::vector<double>(cells, 0.0), temperature};
   std::vector<double> capacity(cells, 0.0);
   for (std::size_t s = 0; s < volume.size(); ++s) {
-    const std::vector<double> weight = capacity_weights(campaign, volume, s);
+    const std::vector<double> weight = capacity_weights(campaign, volume, temperature, s);
     for (std::size_t c = 0; c < cells; ++c) {
       capacity[c] += weight[c];
       result.all[c] += weight[c] * temperature[s][c];

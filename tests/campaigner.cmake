@@ -3,7 +3,8 @@ cupola_test(
   LABEL unit
   SOURCES unit/orchestrator/convergence_test.cpp unit/orchestrator/journal_test.cpp unit/orchestrator/process_test.cpp
           unit/orchestrator/progress_test.cpp unit/orchestrator/run_folder_test.cpp unit/orchestrator/stage_state_test.cpp
-          unit/orchestrator/result_check_test.cpp
+          unit/orchestrator/remaining_time_test.cpp unit/orchestrator/result_check_test.cpp
+          unit/orchestrator/slurm_test.cpp
   LIBRARIES cupola_orchestrator)
 target_compile_definitions(unit_orchestrator PRIVATE CUPOLA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 

@@ -19,11 +19,11 @@ set(browser_source "${CMAKE_CURRENT_SOURCE_DIR}/browser")
 add_custom_command(
   OUTPUT "${browser_build}/installed.stamp"
   COMMAND "${CMAKE_COMMAND}" -E copy "${browser_source}/package.json" "${browser_source}/package-lock.json"
-          "${browser_source}/.npmrc" "${browser_source}/report.mjs" "${browser_build}"
+          "${browser_source}/.npmrc" "${browser_source}/report.mjs" "${browser_source}/serve.mjs" "${browser_build}"
   COMMAND "${NPM_PROGRAM}" ci --no-audit --no-fund --loglevel=error
   COMMAND "${CMAKE_COMMAND}" -E touch "${browser_build}/installed.stamp"
   DEPENDS "${browser_source}/package.json" "${browser_source}/package-lock.json" "${browser_source}/.npmrc"
-          "${browser_source}/report.mjs"
+          "${browser_source}/report.mjs" "${browser_source}/serve.mjs"
   WORKING_DIRECTORY "${browser_build}"
   COMMENT "npm packages of the browser tests"
   VERBATIM)
@@ -38,3 +38,11 @@ set_tests_properties(report.run PROPERTIES LABELS workflow TIMEOUT 600 FIXTURES_
 add_test(NAME report.browser COMMAND "${NODE_PROGRAM}" report.mjs "${browser_build}/run/report" "${browser_build}/pictures"
          WORKING_DIRECTORY "${browser_build}")
 set_tests_properties(report.browser PROPERTIES LABELS workflow TIMEOUT 300 FIXTURES_REQUIRED report_run)
+add_test(NAME report.serve COMMAND "${NODE_PROGRAM}" serve.mjs $<TARGET_FILE:cupola> "${browser_build}/run" "${browser_build}/pictures"
+         WORKING_DIRECTORY "${browser_build}")
+set_tests_properties(report.serve PROPERTIES LABELS workflow TIMEOUT 120 FIXTURES_REQUIRED report_run)
+
+# ParaView is large and not among the packages that are installed: where it is missing the test says so.
+add_test(NAME report.paraview COMMAND sh -c "command -v pvpython > /dev/null || { echo 'SKIPPED: no pvpython here (Debian: python3-paraview)'; exit 77; }; exec pvpython \"$1\" \"$2\""
+                                      pvpython "${CMAKE_CURRENT_LIST_DIR}/paraview/open_views.py" "${browser_build}/run")
+set_tests_properties(report.paraview PROPERTIES LABELS workflow TIMEOUT 120 FIXTURES_REQUIRED report_run SKIP_RETURN_CODE 77)

@@ -10,6 +10,8 @@
 #include "orchestrator/report/answers.hpp"
 #include "orchestrator/report/charts.hpp"
 #include "orchestrator/report/json_numbers.hpp"
+#include "orchestrator/report/paraview_views.hpp"
+#include "orchestrator/report/provenance.hpp"
 #include "orchestrator/report/report_page.hpp"
 #include "orchestrator/report/stage_report.hpp"
 #include "orchestrator/report/warnings.hpp"
@@ -179,10 +181,8 @@ double wall_seconds_of(const json& episodes) {
   return sum;
 }
 
-json gather(const std::filesystem::path& run_folder) {
-  const RunRecord run = read_run(run_folder);
+json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
   const Campaign& campaign = run.campaign;
-  const std::vector<StageReport> stages = read_stage_reports(run);
   const auto [state, description] = state_of(run, stages);
   const json information = run.information;
   const auto readable =
@@ -218,6 +218,7 @@ json gather(const std::filesystem::path& run_folder) {
                       {"tracer_history", tracer_history(stages)},
                       {"cohesive_zones", cohesive_zones(stages)},
                       {"maps", field_maps(stages, campaign)}};
+  report["provenance"] = provenance(run, stages);
   report["warnings"] = warnings(report);
   report["answers"] = answers(report);
   return report;
@@ -225,8 +226,15 @@ json gather(const std::filesystem::path& run_folder) {
 
 }  // namespace
 
+json gather_report(const std::filesystem::path& run_folder) {
+  const RunRecord run = read_run(run_folder);
+  return gather(run, read_stage_reports(run));
+}
+
 json make_report(const std::filesystem::path& run_folder) {
-  json report = gather(run_folder);
+  const RunRecord run = read_run(run_folder);
+  const std::vector<StageReport> stages = read_stage_reports(run);
+  json report = gather(run, stages);
   const std::filesystem::path folder = run_folder / "report";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -235,6 +243,8 @@ json make_report(const std::filesystem::path& run_folder) {
   }
   write_json_atomically(folder / "report.json", report);
   write_text_atomically(folder / "index.html", report_page(report));
+  write_json_atomically(run_folder / "ro-crate-metadata.json", ro_crate(run, report));
+  write_paraview_views(run.folder, stages);
   return report;
 }
 

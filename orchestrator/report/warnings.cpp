@@ -60,7 +60,7 @@ void add_clamps(const json& episode, std::vector<std::string>& list) {
 void add_dem(const json& episode, std::vector<std::string>& list) {
   const int index = episode.at("index").get<int>();
   if (const auto starved = number_at(episode, "/dem/starved_seconds"); starved && *starved > 0) {
-    list.push_back(fmt::format("Starvation: in DEM stage {} a raceway found too little coke to remove for {:.2g} s.",
+    list.push_back(fmt::format("Starvation: in DEM stage {} a raceway found too few grains to remove for {:.2g} s.",
                                index, *starved));
   }
   if (const auto fast = number_at(episode, "/dem/fast_parcels"); fast && *fast > 0) {
@@ -77,10 +77,10 @@ void add_tracer(const json& episode, std::vector<std::string>& list) {
   }
   if (const auto check = number_at(episode, "/tracer/scale_check");
       check && std::abs(*check) > greatest_scale_difference) {
-    list.push_back(
-        fmt::format("Tracer stage {}: the coke that passes the middle of the shaft differs by {:.0f} % from what the "
-                    "raceways remove; the DEM stage was not steady yet.",
-                    index, 100 * std::abs(*check)));
+    list.push_back(fmt::format(
+        "Tracer stage {}: what passes the middle of the shaft and does not melt differs by {:.0f} % from what the "
+        "raceways remove; the DEM stage was not steady yet.",
+        index, 100 * std::abs(*check)));
   }
   for (const json& inlet : episode.value(json::json_pointer("/tracer/inlets"), json::array())) {
     if (const auto mach = number_at(inlet, "/mach"); mach && *mach > noticeable_mach_number) {

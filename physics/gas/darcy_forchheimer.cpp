@@ -40,6 +40,10 @@ struct DarcyForchheimer::State {
         throw Failure(ExitCode::wrong_input, fmt::format("the mesh does not hold the inlet '{}'", inlet.name))
             .at("key", "scene.gas.inlets");
       }
+      if (inlet.given != Inlet::Given::mass_flow) {
+        throw Failure(ExitCode::wrong_input, fmt::format("the inlet '{}' must state its mass_flow", inlet.name))
+            .at("key", "scene.gas.inlets");
+      }
       const double opening = patch_area(*patch);
       for (auto face = patch->first_face; face < patch->first_face + patch->faces; ++face) {
         boundary_flux[face] = -inlet.mass_flow * geometry.area[face] / opening;

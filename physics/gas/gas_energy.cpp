@@ -34,7 +34,7 @@ struct GasEnergy::State {
         heat_loss(campaign.scene.heat_loss) {
     conductivity = gas_conductivity(gas.viscosity, gas.heat_capacity, gas.prandtl);
     inlet_temperature.assign(mesh.faces(), 0);
-    double flow = 0, enthalpy = 0;
+    double first_guess = 0;
     for (const auto& inlet : gas.inlets) {
       const auto* patch = mesh.find_patch(inlet.name);
       if (patch == nullptr) {
@@ -43,10 +43,9 @@ struct GasEnergy::State {
       }
       std::fill_n(inlet_temperature.begin() + patch->first_face, patch->faces,
                   inlet.total_temperature - reference_temperature);
-      flow += inlet.mass_flow;
-      enthalpy += inlet.mass_flow * inlet.total_temperature;
+      first_guess = std::max(first_guess, inlet.total_temperature);
     }
-    temperature.assign(mesh.cells(), flow > 0 ? enthalpy / flow : reference_temperature);
+    temperature.assign(mesh.cells(), gas.inlets.empty() ? reference_temperature : first_guess);
   }
 
   const BedMesh& mesh;

@@ -8,6 +8,7 @@
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/layer_exchange.hpp"
 #include "physics/closures/ranz_marshall.hpp"
+#include "physics/closures/solid_enthalpy.hpp"
 
 namespace cupola {
 namespace {
@@ -25,11 +26,12 @@ double wall_perimeter(const Campaign& campaign, double z) {
 class CampaignExchange {
  public:
   CampaignExchange(const Campaign& campaign, const Charge& charge, const std::vector<std::size_t>& kinds,
-                   double gas_mass_flow)
+                   double gas_mass_flow, double gas_temperature)
       : campaign_(campaign),
         charge_(charge),
         kinds_(kinds),
         gas_mass_flow_(gas_mass_flow),
+        gas_temperature_(gas_temperature),
         gas_conductivity_(gas_conductivity(campaign.scene.gas->viscosity, campaign.scene.gas->heat_capacity,
                                            campaign.scene.gas->prandtl)) {}
 
@@ -58,7 +60,9 @@ class CampaignExchange {
     if (!charged_in_layers(campaign_)) return 0;
     const double stretch = charge_.area / area;
     const auto conductivity = [&](std::size_t i) {
-      return bed_conductivity_carson(campaign_.species[i].conductivity, charge_.packing);
+      const Species& species = campaign_.species[i];
+      return bed_conductivity_carson(species.conductivity.mean(campaign_.charging.temperature, gas_temperature_),
+                                     charge_.packing);
     };
     return layer_exchange(charge_.layer_thickness[kinds_[0]] * stretch, conductivity(kinds_[0]),
                           charge_.layer_thickness[kinds_[1]] * stretch, conductivity(kinds_[1]));
@@ -67,8 +71,17 @@ class CampaignExchange {
   const Campaign& campaign_;
   const Charge& charge_;
   const std::vector<std::size_t>& kinds_;
-  double gas_mass_flow_, gas_conductivity_;
+  double gas_mass_flow_, gas_temperature_, gas_conductivity_;
 };
+
+/// Over what a species goes through: from the charge's temperature to its melting (latent heat included), or to the
+/// blast's.
+double mean_heat_capacity(const Campaign& campaign, const Species& species, double gas_temperature) {
+  const double from = campaign.charging.temperature;
+  const double to = species.softening ? species.softening->melted : gas_temperature;
+  if (to <= from) return species.heat_capacity.at(from);
+  return (solid_enthalpy(species, to) - solid_enthalpy(species, from)) / (to - from);
+}
 
 }  // namespace
 
@@ -104,7 +117,7 @@ std::optional<HeatBalance> heat_balance(const Campaign& campaign, const Charge& 
   for (const std::size_t i : result.kinds) {
     const Species& species = campaign.species[i];
     DescendingSolids solids;
-    solids.heat_capacity_flow = charge.mass_rate[i] * species.heat_capacity;
+    solids.heat_capacity_flow = charge.mass_rate[i] * mean_heat_capacity(campaign, species, result.gas_temperature);
     solids.charged_at = campaign.charging.temperature;
     if (species.softening) {
       solids.melts_at = species.softening->melted;
@@ -117,7 +130,7 @@ std::optional<HeatBalance> heat_balance(const Campaign& campaign, const Charge& 
   bed.gas_heat_capacity_flow = result.gas_heat_capacity_flow;
   bed.gas_enters_at = result.gas_temperature;
   if (campaign.scene.heat_loss) bed.wall_temperature = campaign.scene.heat_loss->ambient;
-  const CampaignExchange exchange(campaign, charge, result.kinds, result.gas_mass_flow);
+  const CampaignExchange exchange(campaign, charge, result.kinds, result.gas_mass_flow, result.gas_temperature);
   bed.exchange = [&](double depth, const std::vector<bool>& present) { return exchange(stock_line - depth, present); };
   result.profile = solve_counter_current_bed(bed);
   result.top_gas_temperature = result.profile.gas_temperature.front();

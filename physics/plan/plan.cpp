@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "physics/plan/expected_parcels.hpp"
+#include "physics/plan/inlet_flows.hpp"
+#include "physics/plan/inlet_limit.hpp"
 #include "physics/plan/physics_pieces.hpp"
 #include "schemas/failure.hpp"
 
@@ -50,17 +52,9 @@ void judge_inlets(const Campaign& campaign, Plan& plan) {
   for (std::size_t i = 0; i < plan.inlets.size(); ++i) {
     const InletPlan& inlet = plan.inlets[i];
     const Inlet& asked = gas.inlets[i];
-    const double smallest = smallest_opening(asked.mass_flow, asked.total_temperature, inlet.state.static_pressure,
-                                             gas.molar_mass, gas.heat_capacity);
-    if (inlet.state.choked() || inlet.state.mach_number > mach_to_refuse) {
-      plan.refusals.push_back(
-          fmt::format("scene.gas.inlets: {} kg/s at {} K through the {:.4g} m2 of '{}' {} (limit {}); the smallest "
-                      "opening that works is "
-                      "{:.3g} m2, for example [{:.3g} m, {:.3g} m]",
-                      asked.mass_flow, asked.total_temperature, inlet.opening, inlet.name,
-                      inlet.state.choked() ? "chokes: it would need more than Mach 1"
-                                           : fmt::format("needs Mach {:.2f}", inlet.state.mach_number),
-                      mach_to_refuse, smallest, std::sqrt(smallest), std::sqrt(smallest)));
+    const std::string refusal = inlet_refusal(gas, asked, inlet.state);
+    if (!refusal.empty()) {
+      plan.refusals.push_back(refusal);
     } else if (inlet.state.mach_number > mach_to_warn) {
       plan.warnings.push_back(
           fmt::format("The gas enters '{}' at Mach {:.2f} (above {}): what the gas model leaves out matters there",
@@ -132,14 +126,21 @@ void judge_bed(const Campaign& campaign, Plan& plan) {
 
 }  // namespace
 
-Plan make_plan(const Campaign& campaign) {
+Plan make_plan(const Campaign& asked) {
   Plan plan;
+  plan.charge = charge_of(asked);
+  const auto flowing = with_mass_flows(asked, plan.charge);
+  if (!flowing) {
+    plan.refusals.push_back(
+        "scene.gas.inlets: no steady flow has the velocities or pressures asked for: the mass flow grows with the "
+        "pressure without limit; give mass_flow instead, or less gas");
+  }
+  const Campaign& campaign = flowing ? *flowing : asked;
   plan.campaign = campaign.name;
   plan.stock_line = campaign.charging.stock_line;
   plan.mesh = mesh_plan(campaign);
   plan.bed_volume = slot_volume(campaign, campaign.bottom(), campaign.charging.stock_line);
   plan.hopper_top = campaign.hopper_top();
-  plan.charge = charge_of(campaign);
   plan.dem_speed_up = dem_speed_up(campaign, plan.charge);
   plan.dem_step = dem_time_step(campaign);
   plan.physics = physics_pieces(campaign);

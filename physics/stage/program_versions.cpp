@@ -11,7 +11,7 @@
 
 namespace cupola {
 
-std::string program_versions(std::map<std::string, std::string> libraries) {
+std::string versions_text(std::map<std::string, std::string> libraries) {
   unsigned major = 0;
   unsigned minor = 0;
   unsigned release = 0;
@@ -21,8 +21,8 @@ std::string program_versions(std::map<std::string, std::string> libraries) {
   MPI_Get_library_version(mpi.data(), &length);
   const std::string mpi_text(mpi.data(), static_cast<std::size_t>(length));
   libraries["cupola"] = program_version;
-  libraries["hdf5"] = fmt::format("{}.{}.{}", major, minor, release);
-  libraries["mpi"] = mpi_text.substr(0, mpi_text.find(','));
+  libraries["HDF5"] = fmt::format("{}.{}.{}", major, minor, release);
+  libraries["Open MPI"] = mpi_text.substr(0, mpi_text.find(','));
   return nlohmann::json(libraries).dump();
 }
 

@@ -4,7 +4,7 @@
 
 namespace cupola {
 
-/// What `PROGRAM --versions` prints: a JSON object with `cupola`, `hdf5`, `mpi` and the libraries handed over.
-std::string program_versions(std::map<std::string, std::string> libraries);
+/// What `PROGRAM --versions` prints: a JSON object with `cupola`, `HDF5`, `Open MPI` and the libraries handed over.
+std::string versions_text(std::map<std::string, std::string> libraries);
 
 }  // namespace cupola

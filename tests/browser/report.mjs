@@ -51,6 +51,29 @@ const lookAtCharts = () => Object.fromEntries([...document.querySelectorAll("fig
   return [figure.dataset.chart, { kind: svg ? "svg" : canvas ? "canvas" : "none", marks, colours, width: box.width, height: box.height }];
 }));
 
+/** Goes through the page with the Tab key alone: everything that can be used is reached, and says what it is. */
+async function useKeys(page, charts) {
+  const reached = new Set();
+  for (let i = 0; i < 200; ++i) {
+    await page.keyboard.press("Tab");
+    const here = await page.evaluate(() => {
+      const { activeElement: at } = document;
+      if (at === document.body) return null;
+      const outline = getComputedStyle(at);
+      return {
+        what: at.closest("figure")?.dataset.chart ?? at.tagName, name: at.getAttribute("aria-label") ?? at.innerText,
+        seen: outline.outlineStyle !== "none" && parseFloat(outline.outlineWidth) >= 2,
+      };
+    });
+    if (here === null) break;
+    assert(here.name, `${here.what} is reached by the Tab key but has no name`);
+    assert(here.seen, `one does not see that ${here.name} is reached`);
+    reached.add(here.what);
+  }
+  for (const chart of charts) assert(reached.has(chart), `the CSV of ${chart} is not reached by the Tab key`);
+  assert(!charts.length || reached.has("SUMMARY"), "the campaign file is not reached by the Tab key");
+}
+
 const profile = mkdtempSync(join(tmpdir(), "cupola-chromium-"));
 const browser = await puppeteer.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -87,9 +110,11 @@ try {
     }
     for (const warning of report.warnings) assert(pageText.includes(warning), `the warning "${warning}" is missing`);
     assert(!/\b(undefined|NaN|\[object)/.test(pageText), "a number is missing in the text");
+    if (!report.furnace.species.includes("coke")) assert(!/coke/i.test(pageText), "the text says coke, and there is none");
     const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
     assert(overflow <= 0, `the page is ${overflow} pixels wider than a screen of ${width}`);
 
+    if (width < 1000) await useKeys(page, Object.keys(charts));
     if (width > 1000 && Object.keys(charts).length) {
       const client = await browser.target().createCDPSession();
       await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: outputFolder });

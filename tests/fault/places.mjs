@@ -132,8 +132,8 @@ function otherVersions() {
   cpSync(cupola, path.join(programs, 'cupola'));
   for (const stage of ['cupola-dem', 'cupola-tracer']) {
     const said = JSON.parse(spawnSync(path.join(real, stage), ['--versions'], { encoding: 'utf8' }).stdout);
-    for (const library of ['openfoam', 'hdf5', 'mpi', 'cupola']) check(said[library], `${stage} does not say its ${library}`);
-    const other = JSON.stringify({ ...said, openfoam: '9999' });
+    for (const library of ['OpenFOAM', 'HDF5', 'Open MPI', 'cupola']) check(said[library], `${stage} does not say its ${library}`);
+    const other = JSON.stringify({ ...said, OpenFOAM: '9999' });
     writeFileSync(path.join(programs, stage), `#!/bin/sh\ncase "$1" in --versions) echo '${other}' ;; *) exec '${path.join(real, stage)}' "$@" ;; esac\n`, { mode: 0o755 });
   }
   const folder = copyOfAlone('versions/run');
@@ -142,12 +142,12 @@ function otherVersions() {
     return { status: ended.status, output: ended.stdout + ended.stderr };
   };
   const refused = resume();
-  check(refused.status === 65 && /openfoam \S+ \(here 9999\)/.test(refused.output) && /--accept-versions/.test(refused.output) && /Whole and usable/.test(refused.output), 'another version is not named', refused.output);
+  check(refused.status === 65 && /OpenFOAM \S+ \(here 9999\)/.test(refused.output) && /--accept-versions/.test(refused.output) && /Whole and usable/.test(refused.output), 'another version is not named', refused.output);
   const accepted = resume('--accept-versions');
   check(accepted.status === expectedStatus(), 'another version is not accepted', accepted.output);
   check(resume().status === expectedStatus(), 'an accepted version is asked for again');
   const information = JSON.parse(readFileSync(path.join(folder, 'run.json')));
-  check(information.versions.liggghts && information.versions.hdf5, 'run.json does not say the versions of the libraries');
+  check(information.versions.LIGGGHTS && information.versions.HDF5, 'run.json does not say the versions of the libraries');
   console.log(`another version of a library: named, refused, and taken when accepted (${seconds(begin)})`);
 }
 

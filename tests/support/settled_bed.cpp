@@ -6,16 +6,10 @@
 
 #include "physics/closures/guessed_zone.hpp"
 #include "physics/plan/charge.hpp"
-#include "schemas/field_file.hpp"
+#include "tests/support/stated_bed.hpp"
 
 namespace cupola::testing {
 namespace {
-
-std::vector<double> flat(const std::vector<Vector3>& vectors) {
-  std::vector<double> rows;
-  for (const Vector3& v : vectors) rows.insert(rows.end(), v.begin(), v.end());
-  return rows;
-}
 
 bool molten(const Campaign& campaign, const Species& species, const Vector3& position) {
   if (!species.softening) return false;
@@ -33,14 +27,8 @@ bool in_a_raceway(const Campaign& campaign, const Vector3& position) {
   });
 }
 
-struct Parcels {
-  std::vector<std::int64_t> id, species;
-  std::vector<double> position, radius, mass;
-};
-
 /// Layers from the stock line down, the last of the recipe uppermost, until the bottom is reached.
-Parcels fill(const Campaign& campaign, const Charge& charge) {
-  Parcels parcels;
+void fill(StatedBed& bed, const Campaign& campaign, const Charge& charge) {
   double top = std::min(campaign.charging.stock_line, campaign.top());
   for (std::size_t turn = 0; top > campaign.bottom(); ++turn) {
     const std::size_t layer = campaign.charging.layers.size() - 1 - turn % campaign.charging.layers.size();
@@ -61,18 +49,14 @@ Parcels fill(const Campaign& campaign, const Charge& charge) {
             const Vector3 position{x, y, z};
             const bool layer_is_molten = molten(campaign, campaign.species[s], position);
             if (k == s ? layer_is_molten : !layer_is_molten) continue;
-            parcels.id.push_back(static_cast<std::int64_t>(parcels.id.size()) + 1);
-            parcels.species.push_back(static_cast<std::int64_t>(k));
-            parcels.position.insert(parcels.position.end(), position.begin(), position.end());
-            parcels.radius.push_back(diameter / 2);
-            parcels.mass.push_back(std::numbers::pi / 6 * diameter * diameter * diameter * species.density);
+            bed.add_parcel(static_cast<std::int64_t>(k), position, diameter / 2,
+                           std::numbers::pi / 6 * diameter * diameter * diameter * species.density);
           }
         }
       }
     }
     top -= charge.layer_thickness[s];
   }
-  return parcels;
 }
 
 }  // namespace
@@ -82,42 +66,27 @@ void write_settled_bed(const std::filesystem::path& file, const BedMesh& mesh, c
   const Charge charge = charge_of(campaign);
   double raceway_top = campaign.bottom();
   for (const Raceway& raceway : campaign.raceways) raceway_top = std::max(raceway_top, raceway.box[1][2]);
-  std::vector<double> fraction(mesh.cells(), 0.0);
-  std::vector<Vector3> velocity(mesh.cells(), Vector3{});
+  StatedBed bed;
+  bed.solids_fraction.assign(mesh.cells(), 0.0);
+  bed.solids_velocity.assign(mesh.cells(), Vector3{});
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
     const Vector3& r = mesh.cell_centre[c];
     if (r[2] > campaign.charging.stock_line) continue;
-    fraction[c] = in_a_raceway(campaign, r) ? 0.3 : expected_packing;
+    bed.solids_fraction[c] = in_a_raceway(campaign, r) ? 0.3 : expected_packing;
     const double slope = (campaign.half_width(r[2] + 0.05) - campaign.half_width(r[2] - 0.05)) / 0.1;
     const double fade = std::clamp((r[2] - campaign.bottom()) / (raceway_top - campaign.bottom() + 1e-9), 0.0, 1.0);
     const double down = -speed_up * campaign.descent_rate * charge.area / slot_area(campaign, r[2]) * fade;
-    velocity[c] = {down * slope * r[0] / campaign.half_width(r[2]), 0, down};
+    bed.solids_velocity[c] = {down * slope * r[0] / campaign.half_width(r[2]), 0, down};
   }
-  const Parcels parcels = fill(campaign, charge);
-  double coke_rate = 0;
-  for (std::size_t s = 0; s < campaign.species.size(); ++s) {
-    if (!campaign.species[s].softening) coke_rate += speed_up * charge.mass_rate[s];
+  fill(bed, campaign, charge);
+  if (!campaign.raceways.empty()) {
+    for (std::size_t k = 0; k < campaign.species.size(); ++k) {
+      if (!campaign.species[k].softening) bed.coke_removal_rate += speed_up * charge.mass_rate[k];
+    }
+    bed.removal_by_raceway.assign(campaign.raceways.size(),
+                                  bed.coke_removal_rate / static_cast<double>(campaign.raceways.size()));
   }
-  std::vector<double> by_raceway;
-  if (!campaign.raceways.empty())
-    by_raceway.assign(campaign.raceways.size(), coke_rate / static_cast<double>(campaign.raceways.size()));
-
-  std::vector<std::int64_t> cell_points;
-  for (const auto& cell : mesh.cell_points) cell_points.insert(cell_points.end(), cell.begin(), cell.end());
-  FieldFileWriter out(file, {"dem-result", task.campaign_hash, mesh.hash}, flat(mesh.points), cell_points);
-  out.cell_data("solids_fraction", fraction);
-  out.cell_data("solids_growth", std::vector<double>(fraction.size(), 0.0));
-  out.cell_data("contact_fraction", fraction);
-  out.cell_data("solids_velocity", flat(velocity), 3);
-  out.hdf().write("Packing/id", parcels.id);
-  out.hdf().write("Packing/species", parcels.species);
-  out.hdf().write("Packing/position", parcels.position, 3);
-  out.hdf().write("Packing/radius", parcels.radius);
-  out.hdf().write("Packing/mass", parcels.mass);
-  out.hdf().write("Charging/next_layer", std::vector<std::int64_t>{0});
-  out.hdf().write("Charging/owed", std::vector<double>(campaign.species.size(), 0.0));
-  out.summary({{"coke_removal_rate", by_raceway.empty() ? 0.0 : coke_rate}, {"removal_by_raceway", by_raceway}});
-  out.commit();
+  write_stated_bed(file, mesh, task, bed);
 }
 
 }  // namespace cupola::testing

@@ -1,12 +1,14 @@
 // Compares two report.json, numbers within a relative tolerance (0: bit for bit), without what depends on the day and the machine.
-//   node compare_reports.mjs A B [TOLERANCE]
+//   node compare_reports.mjs A B [TOLERANCE] [KEY,KEY…: of no interest either]
 import { readFileSync } from 'node:fs';
 
-const [fileA, fileB, toleranceText] = process.argv.slice(2);
+const [fileA, fileB, toleranceText, otherKeys] = process.argv.slice(2);
 const tolerance = Number(toleranceText ?? 0);
-// The hash of a result is among it: its summary holds wall times.
+// The hash of a result is among it: its summary holds wall times; so is everything that is said about where a run was made.
 const ofTheDay = new Set([
   'wall_seconds', 'wall_seconds_by_part', 'wall_time', 'started', 'file_written', 'file_hash', 'host', 'run_folder',
+  'provenance',
+  ...(otherKeys ?? '').split(','),
 ]);
 const differences = [];
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "physics/plan/charge.hpp"
 #include "schemas/campaign.hpp"
 
@@ -14,9 +16,22 @@ inline Campaign paper_furnace(double blast = 8.6, double opening = 0.25) {
                              Geometry::Sides::periodic,
                              {{-2, 6}, {0.75, 6}, {3.9, 7.4}, {6.4, 7.4}, {24, 4.7}, {26, 4.7}}};
   campaign.scene.mesh.cell = 0.2;
-  Gas gas{"blast", 0.028, 745 + 8.31446261815324 / 0.028, 2e-5, 0.8, {}, 1e5};
-  gas.inlets.push_back({"tuyere-left", Inlet::Side::left, 0.06, {opening, opening}, blast, 2620});
-  gas.inlets.push_back({"tuyere-right", Inlet::Side::right, 0.06, {opening, opening}, blast, 2620});
+  Gas gas;
+  gas.species = "blast";
+  gas.molar_mass = 0.028;
+  gas.heat_capacity = 745 + 8.31446261815324 / 0.028;
+  gas.viscosity = 2e-5;
+  gas.prandtl = 0.8;
+  for (const auto& [name, side] : {std::pair{"tuyere-left", Inlet::Side::left}, {"tuyere-right", Inlet::Side::right}}) {
+    Inlet inlet;
+    inlet.name = name;
+    inlet.side = side;
+    inlet.z = 0.06;
+    inlet.size = {opening, opening};
+    inlet.mass_flow = blast;
+    inlet.total_temperature = 2620;
+    gas.inlets.push_back(inlet);
+  }
   campaign.scene.gas = gas;
   campaign.scene.heat_loss = WallHeatLoss{20, 293};
   campaign.species = {{"coke", 0.044, 4, 800, 850, 1.7, std::nullopt, 0},

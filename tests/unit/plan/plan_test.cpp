@@ -159,7 +159,11 @@ TEST(BedPressure, ErgunBedOfTheReferenceCaseUpToCompression) {
   Gas gas = *campaign.scene.gas;
   gas.outlet_pressure = 10 * 8.31446261815324 * 300 / 0.028;
   gas.viscosity = 1.5e-3;
-  gas.inlets = {{"bottom", Inlet::Side::bottom, 0, {0, 0}, 10 * 0.02 * 0.01, 300}};
+  gas.inlets.resize(1);
+  gas.inlets[0].name = "bottom";
+  gas.inlets[0].side = Inlet::Side::bottom;
+  gas.inlets[0].mass_flow = 10 * 0.02 * 0.01;
+  gas.inlets[0].total_temperature = 300;
   campaign.scene.gas = gas;
   const auto pressure = bed_pressure(campaign, charge_of(campaign, 1 - 0.451335), std::nullopt);
   ASSERT_TRUE(pressure);

@@ -32,7 +32,7 @@ const std::vector<Mistake> mistakes{
     {"misspelt key", "mass_flow:", "mas_flow:", {R"(8:66: scene.gas.inlets[0].mas_flow: unknown key `mas_flow` (did you mean `mass_flow`?))"}},
     {"misspelt section", "descent_rate:", "decent_rate:", {R"(24:1: decent_rate: unknown key `decent_rate` (did you mean `descent_rate`?))"}},
     {"key in the wrong section", "heat: {}", "heat: {}\nranks: 2", {R"(21:1: ranks: unknown key `ranks` (it belongs at `launch.ranks`))"}},
-    {"key of nowhere", "heat: {}", "heat: {colour: red}", {R"(20:8: heat.colour: unknown key `colour` (known here: nusselt_factor))"}},
+    {"key of nowhere", "heat: {}", "heat: {colour: red}", {R"(20:8: heat.colour: unknown key `colour` (known here: bed_conduction, convection, emissivity, intragrain_resistance, nusselt_factor))"}},
     {"length for a time", "at_most: 20 s", "at_most: 5 m", {R"(25:23: dem.stop.at_most: expected a time (like 5 s), but `5 m` is a length)"}},
     {"reciprocal", "at_most: 20 s", "at_most: 20 Hz", {R"(25:23: dem.stop.at_most: expected a time (like 5 s), but `20 Hz` is a frequency)"}},
     {"coulomb", "1475 K", "1200 C", {R"(12:96: species.ore.softening.from: expected a temperature (like 1675 K), but the `C` of `1200 C` is the coulomb: write degC or K)"}},
@@ -51,7 +51,7 @@ const std::vector<Mistake> mistakes{
     {"half an episode", "2 episodes", "2.5 episodes", {R"(26:18: converged.for: expected a whole number, but `2.5 episodes` stands here)"}},
     {"half an episode, number", "2 episodes", "2.5", {R"(26:18: converged.for: expected a number of episodes (like 2 episodes), but `2.5` stands here)"}},
     {"missing key", ", z: 0.5 m", "", {R"(8:9: scene.gas.inlets[0]: an inlet in a side wall needs `z`)"}},
-    {"missing required", "heat_capacity: 850, ", "", {R"(10:3: species.coke: the key `heat_capacity` is missing: expected a specific heat capacity (like 850 J/kg/K))"}},
+    {"missing required", "heat_capacity: 850, ", "", {R"(10:3: species.coke: the key `heat_capacity` is missing: expected a specific heat capacity (like 850 J/kg/K) or a table over the temperature)"}},
     {"missing section", "descent_rate: 2 mm/s\n", "", {R"(1:1: the key `descent_rate` is missing: expected a speed (like 2 mm/s))"}},
     {"not positive", "diameter: 44 mm", "diameter: -44 mm", {R"(10:20: species.coke.diameter: must be greater than 0, but is -0.044 m)"}},
     {"restitution above one", "restitution: 0.5", "restitution: 1.5", {R"(15:30: contacts.pairs.coke-coke.restitution: must be at most 1, but is 1.5)"}},
@@ -84,6 +84,17 @@ const std::vector<Mistake> mistakes{
     {"unknown gas", "species: blast", "species: argon", {R"(6:14: scene.gas.species: `argon` is not a known gas (air, nitrogen, blast): expected one, or also its molar_mass, heat_capacity, viscosity, prandtl)"}},
     {"misspelt gas", "species: blast", "species: nitrogn", {R"(6:14: scene.gas.species: `nitrogn` is not a known gas (air, nitrogen, blast) (did you mean `nitrogen`?): expected one, or also its molar_mass, heat_capacity, viscosity, prandtl)"}},
     {"no inlets", "    inlets:\n      - {name: left, side: left, z: 0.5 m, size: [0.2 m, 0.2 m], mass_flow: 1.4 kg/s, total_temperature: 2600 K}\n", "", {R"(5:3: scene.gas: the key `inlets` is missing: expected a list)"}},
+    {"inlet without flow", "mass_flow: 1.4 kg/s, ", "", {R"(8:9: scene.gas.inlets[0]: one of the keys mass_flow, velocity and pressure is missing: expected a mass flow (like 1.4 kg/s))"}},
+    {"inlet with two flows", "mass_flow: 1.4 kg/s", "mass_flow: 1.4 kg/s, velocity: 200 m/s", {R"(8:97: scene.gas.inlets[0].velocity: an inlet states one of mass_flow, velocity and pressure, but here stand mass_flow and velocity)"}},
+    {"inlet below the outlet's pressure", "mass_flow: 1.4 kg/s", "pressure: 0.9 bar", {R"(8:76: scene.gas.inlets[0].pressure: no gas flows in at 90000 Pa against 100000 Pa at the outlet)"}},
+    {"sutherland of a strange gas", "species: blast", "species: argon\n    molar_mass: 40 g/mol\n    heat_capacity: 520\n    viscosity: 2e-5\n    prandtl: 0.67\n    viscosity_model: sutherland", {R"(6:5: scene.gas: this gas needs the key `sutherland`)"}},
+    {"janaf ranges out of order", "species: blast", "species: blast\n    janaf: {from: 300, common: 200, to: 1000, low: [1, 0, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:12: scene.gas.janaf: expected from < common < to, but these are 300, 200 and 1000 K)"}},
+    {"janaf of six coefficients", "species: blast", "species: blast\n    janaf: {from: 200, common: 1000, to: 6000, low: [1, 0, 0, 0, 0, 0], high: [1, 0, 0, 0, 0, 0, 0]}", {R"(7:53: scene.gas.janaf.low: expected a list of 7, but it has 6 (The seven coefficients of the lower range.))"}},
+    {"table of a wrong unit", "heat_capacity: 850", "heat_capacity: [[300 K, 800 J/kg/K], [1000 K, 2 W/m/K]]", {R"(10:107: species.coke.heat_capacity[1][1]: expected a specific heat capacity (like 850 J/kg/K), but `2 W/m/K` is a heat conductivity)"}},
+    {"table that falls", "heat_capacity: 850", "heat_capacity: [[300, 800], [200, 900]]", {R"(10:89: species.coke.heat_capacity[1]: temperatures must rise from row to row, but 200 K follows 300 K)"}},
+    {"table of one row", "heat_capacity: 850", "heat_capacity: [[300, 800]]", {R"(10:76: species.coke.heat_capacity: expected a list of at least 2, but it has 1 (Heat capacity: a number, or a table of rows [temperature, heat capacity].))"}},
+    {"negative latent heat", "melted: 1675 K", "melted: 1675 K, latent_heat: -1 kJ/kg", {R"(12:133: species.ore.softening.latent_heat: must be at least 0, but is -1000 J/kg)"}},
+    {"unknown convection", "heat: {}", "heat: {convection: gun}", {R"(20:20: heat.convection: expected one of ranz-marshall, gunn, wakao, but `gun` stands here (did you mean `gunn`?))"}},
     {"heat without gas", "  gas:\n    species: blast\n    inlets:\n      - {name: left, side: left, z: 0.5 m, size: [0.2 m, 0.2 m], mass_flow: 1.4 kg/s, total_temperature: 2600 K}\n", "", {R"(16:7: heat: this needs a gas, but the scene has none (scene.gas))"}},
     {"heat without gas model", "heat: {}", "heat: {}\ntracer: {gas: none}", {R"(21:15: tracer.gas: heat needs a gas model in the tracer stage, but `none` stands here)"}},
     {"stock line outside", "stock_line: 5.5 m", "stock_line: 9 m", {R"(21:24: charging.stock_line: 9 m is not between the bottom, 0 m, and the top of the charging hopper, 6.816 m)"}},
@@ -109,62 +120,64 @@ const std::vector<Mistake> mistakes{
     {"open bracket", "converged: {", "converged: [", {R"(26:49: this is not YAML: illegal flow end)"}},
     {"second document", "heat: {}", "heat: {}\n---", {R"(1:1: one document was expected, but a second one begins with `---`)"}},
 };
-// clang-format on
+      // clang-format on
 
-class CampaignMistake : public testing::TestWithParam<Mistake> {};
+      class CampaignMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(CampaignMistake, IsNamedWithPlaceKeyAndCure) {
-  const auto& mistake = GetParam();
-  EXPECT_THAT(complaints_about(test::spoilt(mistake.old_text, mistake.new_text)),
-              testing::ElementsAreArray(mistake.complaints));
-}
+      TEST_P(CampaignMistake, IsNamedWithPlaceKeyAndCure) {
+        const auto& mistake = GetParam();
+        EXPECT_THAT(complaints_about(test::spoilt(mistake.old_text, mistake.new_text)),
+                    testing::ElementsAreArray(mistake.complaints));
+      }
 
-INSTANTIATE_TEST_SUITE_P(All, CampaignMistake, testing::ValuesIn(mistakes), [](const auto& info) {
-  std::string name = info.param.name;
-  for (auto& letter : name) {
-    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
-  }
-  return name;
-});
+      INSTANTIATE_TEST_SUITE_P(All, CampaignMistake, testing::ValuesIn(mistakes), [](const auto& info) {
+        std::string name = info.param.name;
+        for (auto& letter : name) {
+          if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+        }
+        return name;
+      });
 
-TEST(CampaignReader, AcceptsTheBaseCampaign) { EXPECT_THAT(complaints_about(test::base_campaign), testing::IsEmpty()); }
+      TEST(CampaignReader, AcceptsTheBaseCampaign) {
+        EXPECT_THAT(complaints_about(test::base_campaign), testing::IsEmpty());
+      }
 
-TEST(CampaignReader, ListsAllMistakesOfAFileInItsOrder) {
-  auto text = test::spoilt("mass_flow:", "mas_flow:");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("melted: 1675 K", "melted: 1400 K");
-  replace("{ore: 600 kg}", "{orr: 600 kg}");
-  replace("at_most: 20 s", "at_most: 5 m");
-  EXPECT_THAT(complaints_about(text),
-              testing::ElementsAre(testing::StartsWith("8:66: scene.gas.inlets[0].mas_flow: "),
-                                   testing::StartsWith("12:112: species.ore.softening.melted: "),
-                                   testing::StartsWith("21:57: charging.layers[1].orr: "),
-                                   testing::StartsWith("25:23: dem.stop.at_most: ")));
-}
+      TEST(CampaignReader, ListsAllMistakesOfAFileInItsOrder) {
+        auto text = test::spoilt("mass_flow:", "mas_flow:");
+        const auto replace = [&](const std::string& from, const std::string& to) {
+          text.replace(text.find(from), from.size(), to);
+        };
+        replace("melted: 1675 K", "melted: 1400 K");
+        replace("{ore: 600 kg}", "{orr: 600 kg}");
+        replace("at_most: 20 s", "at_most: 5 m");
+        EXPECT_THAT(complaints_about(text),
+                    testing::ElementsAre(testing::StartsWith("8:66: scene.gas.inlets[0].mas_flow: "),
+                                         testing::StartsWith("12:112: species.ore.softening.melted: "),
+                                         testing::StartsWith("21:57: charging.layers[1].orr: "),
+                                         testing::StartsWith("25:23: dem.stop.at_most: ")));
+      }
 
-TEST(CampaignReader, RefusesWhatIsNoSectionOfKeys) {
-  EXPECT_THAT(complaints_about(""), testing::ElementsAre("1:1: the file is empty"));
-  EXPECT_THAT(complaints_about("# nothing\n"), testing::ElementsAre("1:1: the file is empty"));
-  const auto no_keys = "1:1: expected a section of keys, beginning with `campaign: name`";
-  for (const auto* text : {"[1, 2]", "null", "campaign"})
-    EXPECT_THAT(complaints_about(text), testing::ElementsAre(no_keys)) << text;
-}
+      TEST(CampaignReader, RefusesWhatIsNoSectionOfKeys) {
+        EXPECT_THAT(complaints_about(""), testing::ElementsAre("1:1: the file is empty"));
+        EXPECT_THAT(complaints_about("# nothing\n"), testing::ElementsAre("1:1: the file is empty"));
+        const auto no_keys = "1:1: expected a section of keys, beginning with `campaign: name`";
+        for (const auto* text : {"[1, 2]", "null", "campaign"})
+          EXPECT_THAT(complaints_about(text), testing::ElementsAre(no_keys)) << text;
+      }
 
-TEST(CampaignReader, RefusesEndlessDepthAndSize) {
-  EXPECT_THAT(complaints_about(std::string(100000, '[')), testing::SizeIs(1));
-  std::string stairs;
-  for (int i = 0; i < 300; ++i) stairs += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
-  EXPECT_THAT(complaints_about(stairs),
-              testing::ElementsAre("65:65: this is not YAML: more levels than any campaign needs"));
-  std::string many = "a: [";
-  for (int i = 0; i < 200000; ++i) many += "1,";
-  EXPECT_THAT(complaints_about(many + "]"),
-              testing::ElementsAre(testing::HasSubstr("more values than any campaign needs")));
-  EXPECT_THAT(complaints_about(std::string(2000000, 'a')),
-              testing::ElementsAre(testing::HasSubstr("larger than 1 MB")));
-}
+      TEST(CampaignReader, RefusesEndlessDepthAndSize) {
+        EXPECT_THAT(complaints_about(std::string(100000, '[')), testing::SizeIs(1));
+        std::string stairs;
+        for (int i = 0; i < 300; ++i) stairs += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+        EXPECT_THAT(complaints_about(stairs),
+                    testing::ElementsAre("65:65: this is not YAML: more levels than any campaign needs"));
+        std::string many = "a: [";
+        for (int i = 0; i < 200000; ++i) many += "1,";
+        EXPECT_THAT(complaints_about(many + "]"),
+                    testing::ElementsAre(testing::HasSubstr("more values than any campaign needs")));
+        EXPECT_THAT(complaints_about(std::string(2000000, 'a')),
+                    testing::ElementsAre(testing::HasSubstr("larger than 1 MB")));
+      }
 
-}  // namespace
-}  // namespace cupola
+    }  // namespace
+  }    // namespace cupola

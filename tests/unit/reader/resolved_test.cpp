@@ -92,6 +92,57 @@ TEST(CampaignDefaults, AreDerivedFromTheScene) {
   EXPECT_DOUBLE_EQ(campaign.half_width(3.5), 1.35);
 }
 
+/// Every key of gas and heat that is no default comes back.
+TEST(ResolvedCampaign, KeepsPropertiesOverTheTemperature) {
+  auto text =
+      test::spoilt("heat_capacity: 850, conductivity: 1.7",
+                   "heat_capacity: [[300 K, 0.8 kJ/kg/K], [1300 K, 1.6 kJ/kg/K]], conductivity: [[300, 2], [500, 1]]");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("melted: 1675 K", "melted: 1675 K, latent_heat: 250 kJ/kg");
+  replace("mass_flow: 1.4 kg/s", "pressure: 1.2 bar");
+  replace("species: blast\n", "species: blast\n    viscosity_model: sutherland\n    heat_capacity_model: janaf\n");
+  replace("heat: {}",
+          "heat: {convection: wakao, bed_conduction: zehner-bauer-schluender, emissivity: 0.7, "
+          "intragrain_resistance: true}\ntracer: {gas: navier-stokes, compare_gas_models: true}");
+  replace("species:\n  coke", "  walls: {heat_loss: {coefficient: 20, on: both}}\nspecies:\n  coke");
+  const auto campaign = read(text);
+  const auto& coke = campaign.species[0];
+  EXPECT_DOUBLE_EQ(coke.heat_capacity.at(800), 1200);
+  EXPECT_DOUBLE_EQ(coke.heat_capacity.at(2000), 1600);
+  EXPECT_DOUBLE_EQ(coke.conductivity.at(400), 1.5);
+  EXPECT_DOUBLE_EQ(campaign.species[1].softening->latent_heat, 250e3);
+  const auto& gas = *campaign.scene.gas;
+  EXPECT_EQ(gas.inlets[0].given, Inlet::Given::pressure);
+  EXPECT_DOUBLE_EQ(gas.inlets[0].pressure, 1.2e5);
+  EXPECT_EQ(gas.viscosity_model, Gas::ViscosityModel::sutherland);
+  EXPECT_DOUBLE_EQ(gas.sutherland.constant, 107);
+  EXPECT_EQ(gas.heat_capacity_model, Gas::HeatCapacityModel::janaf);
+  EXPECT_DOUBLE_EQ(gas.janaf.low[0], 3.53100528);
+  EXPECT_EQ(campaign.scene.heat_loss->on, WallHeatLoss::On::both);
+  EXPECT_EQ(campaign.heat->convection, Heat::Convection::wakao);
+  EXPECT_EQ(campaign.heat->bed_conduction, Heat::BedConduction::zehner_bauer_schluender);
+  EXPECT_DOUBLE_EQ(campaign.heat->emissivity, 0.7);
+  EXPECT_TRUE(campaign.heat->intragrain_resistance);
+  EXPECT_EQ(campaign.tracer.gas, TracerSettings::GasModel::navier_stokes);
+  EXPECT_TRUE(campaign.tracer.compare_gas_models);
+  EXPECT_EQ(resolved_json(read(resolved_yaml(campaign))), resolved_json(campaign));
+}
+
+TEST(PropertyCurve, IntegratesItsStraightLinesExactly) {
+  const PropertyCurve curve({{300, 800}, {1300, 1600}, {1500, 1600}});
+  EXPECT_DOUBLE_EQ(curve.at(300), 800);
+  EXPECT_DOUBLE_EQ(curve.at(100), 800);
+  EXPECT_DOUBLE_EQ(curve.integral(300, 1300), 1.2e6);
+  EXPECT_DOUBLE_EQ(curve.integral(100, 300), 160e3);
+  EXPECT_DOUBLE_EQ(curve.integral(1300, 300), -1.2e6);
+  EXPECT_DOUBLE_EQ(curve.integral(1400, 2000), 960e3);
+  EXPECT_DOUBLE_EQ(curve.mean(300, 1300), 1200);
+  EXPECT_DOUBLE_EQ(curve.mean(800, 800), 1200);
+  EXPECT_DOUBLE_EQ(PropertyCurve(850).integral(293, 1293), 850e3);
+}
+
 TEST(CampaignDefaults, OwnGasPropertiesTakeThePlaceOfThePresets) {
   const auto campaign = read(test::spoilt("species: blast", "species: blast\n    viscosity: 5e-5 Pa s"));
   EXPECT_DOUBLE_EQ(campaign.scene.gas->viscosity, 5e-5);

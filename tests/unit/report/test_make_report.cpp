@@ -6,6 +6,7 @@
 #include "orchestrator/run_folder.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
+#include "schemas/version.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cupola {
@@ -110,6 +111,68 @@ TEST_F(MakeReport, ReadsFieldsZoneAndHistoryOfAResult) {
   EXPECT_EQ(zone.at("height_melted"), json({nullptr, 1.75})) << "weighted by area along the depth";
   EXPECT_EQ(zone.at("height_softened"), json({2.1, 2.}));
   EXPECT_EQ(report.at("charts").at("tracer_history").at(0).at("mean_solid_temperature"), json({1190., nullptr}));
+}
+
+TEST_F(MakeReport, SaysWhereTheNumbersComeFrom) {
+  const std::filesystem::path task = begin_stage(TaskKind::tracer);
+  write_tracer_result(task);
+  write_manifest(task);
+  begin_stage(TaskKind::dem);
+  write_text_atomically(task_folder(path(), 1, TaskKind::dem, 1) / "task.yaml",
+                        "random_seed: 17\nprogram_version: 0.1.0\ninputs:\n  packing: {file: "
+                        "../../../000/dem/attempt-1/result.hdf, hash: xxh3:before}\n");
+  write_manifest(task_folder(path(), 1, TaskKind::dem, 1));
+  const json report = make_report(path());
+  const json& from = report.at("provenance");
+  EXPECT_EQ(from.at("campaign_hash"), hash_file(path() / "campaign.yaml"));
+  EXPECT_EQ(from.at("resolved_hash"), hash_file(path() / "resolved.yaml"));
+  EXPECT_EQ(from.at("stages").at(0).at("random_seed"), "17");
+  EXPECT_EQ(from.at("stages").at(0).at("inputs").at("packing").at("file"), "episodes/000/dem/attempt-1/result.hdf");
+  EXPECT_EQ(from.at("stages").at(0).at("inputs").at("packing").at("hash"), "xxh3:before");
+  const json& file = from.at("stages").at(1).at("files").at("episodes/001/tracer/attempt-1/result.hdf");
+  EXPECT_EQ(file.at("hash"), hash_file(task / "result.hdf"));
+  EXPECT_EQ(file.at("size"), std::filesystem::file_size(task / "result.hdf"));
+  for (const char* library : {"cupola", "OpenFOAM", "LIGGGHTS", "Open MPI", "HDF5", "compiler"})
+    EXPECT_TRUE(report.at("versions").contains(library)) << library;
+}
+
+TEST_F(MakeReport, IsAResearchObjectCrate) {
+  const std::filesystem::path task = begin_stage(TaskKind::tracer);
+  write_tracer_result(task);
+  write_manifest(task);
+  begin_stage(TaskKind::dem);
+  make_report(path());
+  const json crate = read_json(path() / "ro-crate-metadata.json");
+  EXPECT_EQ(crate.at("@context"), "https://w3id.org/ro/crate/1.1/context");
+  std::map<std::string, json> entities;
+  for (const json& entity : crate.at("@graph")) {
+    EXPECT_TRUE(entities.emplace(entity.at("@id").get<std::string>(), entity).second) << entity.at("@id");
+    EXPECT_TRUE(entity.contains("@type"));
+  }
+  EXPECT_EQ(entities.at("ro-crate-metadata.json").at("about").at("@id"), "./");
+  // Every part is described, and every file that is described is there.
+  for (const json& part : entities.at("./").at("hasPart")) {
+    const std::string file = part.at("@id");
+    ASSERT_TRUE(entities.contains(file)) << file;
+    EXPECT_TRUE(std::filesystem::exists(path() / file)) << file;
+  }
+  const json& result = entities.at("episodes/001/tracer/attempt-1/result.hdf");
+  EXPECT_EQ(result.at("identifier"), hash_file(task / "result.hdf"));
+  EXPECT_EQ(entities.at("#campaign").at("instrument").at("@id"), "#cupola-" + std::string(program_version));
+}
+
+TEST_F(MakeReport, LeavesViewsForParaViewThatNameTheResults) {
+  const std::filesystem::path task = begin_stage(TaskKind::tracer);
+  write_tracer_result(task);
+  write_manifest(task);
+  begin_stage(TaskKind::dem);
+  make_report(path());
+  const std::string view = read_text(path() / "fields/tracer_fields.xdmf");
+  EXPECT_THAT(view, HasSubstr("<Time Value=\"1\"/>"));
+  EXPECT_THAT(view, HasSubstr("<DataItem Dimensions=\"2 8\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">"
+                              "../episodes/001/tracer/attempt-1/result.hdf:/VTKHDF/Connectivity</DataItem>"));
+  EXPECT_THAT(view, HasSubstr("Name=\"solids_velocity\" AttributeType=\"Vector\" Center=\"Cell\""));
+  EXPECT_FALSE(std::filesystem::exists(path() / "fields/tracers.xdmf"));  // the result has none
 }
 
 }  // namespace

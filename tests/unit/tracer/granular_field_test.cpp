@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "physics/closures/softening.hpp"
 #include "schemas/failure.hpp"
 #include "stage_tracer/bed_composition.hpp"
 #include "tests/support/box_mesh.hpp"
@@ -90,13 +89,13 @@ TEST_F(GranularFieldTest, RacewaysShareTheirSinkByWeightAndVolume) {
   EXPECT_THROW(raceway_sink(mesh_, campaign_, bed_, {1, 1}, 1), Failure);
 }
 
-TEST_F(GranularFieldTest, LastingShareGoesFromTheChargesToOneThroughTheZone) {
+TEST_F(GranularFieldTest, LastingShareIsTheChargesUntilTheOreHasMelted) {
   std::vector<double> ore(mesh_.cells());
   for (std::size_t c = 0; c < mesh_.cells(); ++c) ore[c] = 2000 - 500 * mesh_.cell_centre[c][2];
   const auto share = persistent_share(mesh_, campaign_, 0.6, ore);
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
-    const double degree = mesh_.cell_centre[c][2] < 0.3 ? 1 : softening_degree(ore[c], *campaign_.species[1].softening);
-    EXPECT_NEAR(share[c], 0.6 + 0.4 * degree, 1e-12);
+    const bool molten = mesh_.cell_centre[c][2] < 0.3 || ore[c] >= campaign_.species[1].softening->melted;
+    EXPECT_EQ(share[c], molten ? 1.0 : 0.6);
   }
   for (Species& species : campaign_.species) species.softening.reset();
   for (const double f : persistent_share(mesh_, campaign_, 1.0, {})) EXPECT_EQ(f, 1.0);

@@ -97,7 +97,7 @@ TEST(Exchange, SolidsTakeExactlyWhatTheGasGivesForAnyStep) {
     for (std::size_t s = 0; s < 2; ++s) {
       const Species& species = campaign.species[s];
       for (std::size_t c = 0; c < mesh.cells(); ++c) {
-        const double capacity = contents.volume[s][c] * species.density * species.heat_capacity;
+        const double capacity = contents.volume[s][c] * species.density * species.heat_capacity.at(293);
         taken -= capacity * (felt[s][c] - contents.temperature[s][c]) * std::expm1(std::log(exchange.decay()[s][c]));
       }
     }
@@ -125,7 +125,7 @@ class ConductionTest : public ::testing::Test {
     double sum = 0;
     for (std::size_t s = 0; s < 2; ++s) {
       for (std::size_t c = 0; c < mesh_.cells(); ++c) {
-        sum += campaign_.species[s].density * campaign_.species[s].heat_capacity * contents.volume[s][c] *
+        sum += campaign_.species[s].density * campaign_.species[s].heat_capacity.at(293) * contents.volume[s][c] *
                temperature[s][c];
       }
     }

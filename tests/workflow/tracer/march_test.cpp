@@ -1,21 +1,16 @@
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
 #include <thread>
 
 #include "schemas/campaign_reader.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
-#include "tests/support/settled_bed.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/tracer_program.hpp"
 
 /// The tracer stage as a program, on a generated bed in the tiny slot.
 namespace cupola {
@@ -39,82 +34,10 @@ Campaign cold() {
   return campaign;
 }
 
-int status_of(int raw) { return WIFEXITED(raw) ? WEXITSTATUS(raw) : 128; }
-
-/// A task folder with its mesh and a generated DEM result.
-class TracerTask {
- public:
-  explicit TracerTask(const Campaign& campaign, int ranks = 1) : ranks_(ranks) {
-    task_.kind = TaskKind::tracer;
-    task_.campaign = campaign;
-    task_.campaign.launch.ranks = ranks;
-    task_.campaign_hash = hash_text(campaign.name);
-    task_.program_version = "test";
-    write_task(path(), task_);
-    prepared_ =
-        status_of(std::system((std::string(CUPOLA_TRACER) + " prepare " + path().string() + " > /dev/null").c_str()));
-    if (prepared_ != 0) return;
-    testing::write_settled_bed(path() / "granular.hdf", BedMesh::read(path() / "foam" / "mesh.hdf"), task_, 100);
-    task_.inputs["granular"] = {"granular.hdf", hash_file(path() / "granular.hdf")};
-    write_task(path(), task_);
-  }
-
-  [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
-  [[nodiscard]] int prepared() const { return prepared_; }
-
-  /// Starts the program; `wait` gives its exit status.
-  pid_t start() const {
-    const pid_t child = fork();
-    if (child != 0) return child;
-    setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-    setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-    const std::string count = std::to_string(ranks_);
-    execlp(CUPOLA_MPIEXEC, CUPOLA_MPIEXEC, "--oversubscribe", "--bind-to", "none", "-n", count.c_str(), CUPOLA_TRACER,
-           path().c_str(), nullptr);
-    _exit(127);
-  }
-  static int wait(pid_t child) {
-    int raw = 0;
-    waitpid(child, &raw, 0);
-    return status_of(raw);
-  }
-  int run() const { return wait(start()); }
-
-  [[nodiscard]] FieldFile result() const { return {path() / "result.hdf", "tracer-result"}; }
-
- private:
-  TemporaryFolder folder_;
-  Task task_;
-  int ranks_;
-  int prepared_ = -1;
-};
-
-struct FinalTracers {
-  std::vector<std::int64_t> id;
-  std::vector<double> position, temperature;
-};
-
-FinalTracers final_tracers(const TracerTask& task) {
-  const FieldFile file = task.result();
-  const auto id = file.hdf().integers("Tracers/id");
-  const auto position = file.hdf().doubles("Tracers/position");
-  const auto temperature = file.hdf().has("Tracers/temperature") ? file.hdf().doubles("Tracers/temperature")
-                                                                 : std::vector<double>(id.size());
-  std::vector<std::size_t> order(id.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
-  FinalTracers sorted;
-  for (const std::size_t i : order) {
-    sorted.id.push_back(id[i]);
-    sorted.temperature.push_back(temperature[i]);
-    for (std::size_t k = 0; k < 3; ++k) sorted.position.push_back(position[3 * i + k]);
-  }
-  return sorted;
-}
+using TracerTask = testing::TracerProgram;
 
 TEST(TracerStage, MarchesAndClosesItsBalances) {
   const TracerTask task(tiny());
-  ASSERT_EQ(task.prepared(), 0);
   ASSERT_EQ(task.run(), 0);
   EXPECT_TRUE(has_manifest(task.path()));
   verify_manifest(task.path());
@@ -150,13 +73,14 @@ TEST(TracerStage, TwoRanksCarryTheSameTracers) {
   const TracerTask two(tiny(), 2);
   ASSERT_EQ(one.run(), 0);
   ASSERT_EQ(two.run(), 0);
-  const FinalTracers a = final_tracers(one);
-  const FinalTracers b = final_tracers(two);
+  const testing::FinalTracers a = one.tracers();
+  const testing::FinalTracers b = two.tracers();
   ASSERT_EQ(a.id, b.id);
   double position = 0;
   double temperature = 0;
-  for (std::size_t i = 0; i < a.position.size(); ++i)
-    position = std::max(position, std::abs(a.position[i] - b.position[i]));
+  for (std::size_t i = 0; i < a.position.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) position = std::max(position, std::abs(a.position[i][k] - b.position[i][k]));
+  }
   for (std::size_t i = 0; i < a.id.size(); ++i)
     temperature = std::max(temperature, std::abs(a.temperature[i] - b.temperature[i]));
   EXPECT_LT(position, 1e-7);     // the projection's linear solver stops at its tolerance
@@ -177,8 +101,8 @@ TEST(TracerStage, StoppedAndResumedEqualsUndisturbed) {
   ASSERT_EQ(TracerTask::wait(child), 75);
   EXPECT_FALSE(has_manifest(stopped.path()));
   ASSERT_EQ(stopped.run(), 0);
-  const FinalTracers a = final_tracers(undisturbed);
-  const FinalTracers b = final_tracers(stopped);
+  const testing::FinalTracers a = undisturbed.tracers();
+  const testing::FinalTracers b = stopped.tracers();
   ASSERT_EQ(a.id, b.id);
   EXPECT_EQ(a.position, b.position);
   EXPECT_EQ(a.temperature, b.temperature);
@@ -187,7 +111,6 @@ TEST(TracerStage, StoppedAndResumedEqualsUndisturbed) {
 
 TEST(TracerStage, ColdSceneHasNoTemperatures) {
   const TracerTask task(cold());
-  ASSERT_EQ(task.prepared(), 0);
   ASSERT_EQ(task.run(), 0);
   const FieldFile result = task.result();
   EXPECT_FALSE(result.has_cell_data("solids_temperature"));

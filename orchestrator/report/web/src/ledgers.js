@@ -8,11 +8,11 @@ const flat = (ledger, prefix = "") => Object.entries(ledger ?? {}).flatMap(([key
 
 // What is known by name comes in this order; what a later program adds follows.
 const massRows = [
-  ["in", "in: charged"], ["out/melted", "out: ore melted"], ["out/raceway", "out: coke removed in the raceways"], ["out/unmelted", "out: ore that did not melt"],
+  ["in", "in: charged"], ["out/melted", "out: melted"], ["out/raceway", "out: removed in the raceways"], ["out/unmelted", "out: did not melt in time"],
   ["out/lost", "out: lost by the model"], ["stored", "stored in the bed"],
 ];
 const heatRows = [
-  ["blast", "in: blast"], ["charge", "in: charge"], ["top_gas", "out: top gas"], ["melt", "out: melt"], ["removed_coke", "out: coke removed in the raceways"],
+  ["blast", "in: blast"], ["charge", "in: charge"], ["top_gas", "out: top gas"], ["melt", "out: melt"], ["removed_coke", "out: removed in the raceways"],
   ["unmelted", "out: ore that did not melt"], ["lost", "out: lost by the model"], ["walls", "out: through the walls"], ["stored", "stored in the bed"],
 ];
 const heatAside = [["to_solids", "gas to solids"], ["handover", "hand-over from the episode before"]];

@@ -3,6 +3,7 @@ import { answers, heading, warnings } from "./answers.js";
 import { convergenceSection } from "./convergence.js";
 import { mapsSection, zoneFigure } from "./furnace.js";
 import { ledgerSection } from "./ledgers.js";
+import { live } from "./live.js";
 import { drawAll, element } from "./page.js";
 import { provenanceSection } from "./provenance.js";
 import { qualitySection } from "./quality.js";
@@ -15,6 +16,7 @@ document.title = `${report.campaign}: ${report.state}`;
 const courseFigures = [zoneFigure(report), temperatureFigure(report), zoneHeightFigure(report)].filter(Boolean);
 const sections = [
   heading(report),
+  live(),
   answers(report),
   warnings(report),
   courseFigures.length ? element("h2", {}, "The thermal state and the way to it") : null,

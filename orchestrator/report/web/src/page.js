@@ -45,6 +45,7 @@ export function figure({ name, title, note, height, renderer = "svg", options, r
   const drawing = element("div", { class: "drawing", role: "img", "aria-label": title });
   if (height) drawing.style.height = `${height}px`;
   const button = element("button", { type: "button", onclick: () => download(name, rows()) }, "CSV");
+  button.setAttribute("aria-label", `CSV of ${title}`);
   button.title = `The numbers of this chart as ${name}.csv`;
   const made = element("figure", { "data-chart": name },
     element("figcaption", {}, element("h3", {}, title), button), note ? element("p", {}, note) : null, drawing, below);
@@ -90,7 +91,8 @@ export function table(caption, head, body) {
     return index === 0 && tag === "td" ? element("th", { scope: "row", ...attributes }, text) : element(tag, attributes, text);
   });
   const rows = body.map((line) => (Array.isArray(line) ? { cells: line } : line));
-  return element("div", { class: "scroll" }, element("table", {},
+  // One that is wider than the window is moved sideways with the keys too.
+  return element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": caption || head.filter(Boolean).join(", ") }, element("table", {},
     caption ? element("caption", {}, caption) : null,
     element("thead", {}, element("tr", {}, row("th")(head))),
     element("tbody", {}, rows.map(({ cells, kind }) => element("tr", kind ? { class: kind } : {}, row("td")(cells))))));

@@ -4,7 +4,7 @@ import { element, table } from "./page.js";
 
 const rows = [
   ["DEM speed over process speed", ({ tracer }) => (tracer?.scale > 0 ? number(1 / tracer.scale, 3) : undefined)],
-  ["coke flux in mid-shaft against the raceways' removal", ({ tracer }) => tracer?.scale_check, (value) => `${value > 0 ? "+" : ""}${percent(value)}`],
+  ["flux of what does not melt in mid-shaft against the raceways' removal", ({ tracer }) => tracer?.scale_check, (value) => `${value > 0 ? "+" : ""}${percent(value)}`],
   ["bed's gain in the averaging window over the removal", ({ tracer }) => tracer?.storage_over_removal, (value) => percent(value)],
   ["mass error of the granular field, as averaged", ({ tracer }) => tracer?.field_cleaning?.error_before, (value) => percent(value)],
   ["mass error of the granular field, cleaned", ({ tracer }) => tracer?.field_cleaning?.error_after, (value) => percent(value)],
