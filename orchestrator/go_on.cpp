@@ -5,6 +5,7 @@
 
 #include "orchestrator/child_process.hpp"
 #include "orchestrator/report/report.hpp"
+#include "orchestrator/stage_state.hpp"
 #include "orchestrator/stage_versions.hpp"
 #include "schemas/version.hpp"
 
