@@ -80,6 +80,10 @@ int main(int argc, char** argv) {
   const auto with_limits = [&](CLI::App* sub) {
     sub->add_option("--at-most", options.at_most, "Episodes at most, instead of the campaign's limit")
         ->check(CLI::Range(1, 1000000));
+    sub->add_option("--ranks", options.ranks, "Ranks for the stages from now on, instead of the campaign's")
+        ->check(CLI::Range(1, 1000000));
+    sub->add_flag("--accept-versions", options.accept_versions,
+                  "Go on although program or libraries are of other versions than those the run goes by");
     sub->add_option("--until-episode", options.until_episode, "Stop after this episode; `resume` goes on")
         ->check(CLI::Range(1, 1000000));
   };
@@ -131,6 +135,11 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
   serve->callback([&] { command = [&] { return cupola::serve(folder, host, port); }; });
+
+  CLI::App* verify =
+      with_folder(app.add_subcommand("verify", "Compare every byte of a run with its hashes; changes nothing"));
+  with_json(verify);
+  verify->callback([&] { command = [&] { return cupola::verify(folder, as_json); }; });
 
   CLI::App* report =
       with_folder(app.add_subcommand("report", "Make the report of a run anew, at whatever point it stands"));

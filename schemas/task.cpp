@@ -66,7 +66,7 @@ TaskInput read_input(const std::filesystem::path& folder, const Members& members
 
 }  // namespace
 
-void write_task(const std::filesystem::path& folder, const Task& task) {
+std::string task_text(const Task& task) {
   Json inputs = Json::object();
   for (const auto& [name, input] : task.inputs) inputs[name] = {{"file", input.file.string()}, {"hash", input.hash}};
   const Json json{{"schema", file_schema_version},
@@ -77,7 +77,11 @@ void write_task(const std::filesystem::path& folder, const Task& task) {
                   {"random_seed", task.random_seed},
                   {"inputs", inputs},
                   {"campaign", resolved_json(task.campaign)}};
-  write_text_atomically(folder / task_file, yaml_text(json));
+  return yaml_text(json);
+}
+
+void write_task(const std::filesystem::path& folder, const Task& task) {
+  write_text_atomically(folder / task_file, task_text(task));
 }
 
 Task read_task(const std::filesystem::path& folder) {

@@ -47,4 +47,11 @@ TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const
   return steps;
 }
 
+TimeSteps steps_from(const TimeSteps& steps, long step, double now, double duration) {
+  constexpr double same = 1e-9;  // of the duration
+  if (std::abs(steps.time(static_cast<double>(step)) - now) <= same * duration) return steps;
+  const long count = std::max(1L, static_cast<long>(std::ceil((duration - now) / steps.length - same)));
+  return {step + count, (duration - now) / static_cast<double>(count), step, now};
+}
+
 }  // namespace cupola

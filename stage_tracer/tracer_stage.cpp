@@ -18,7 +18,7 @@ namespace cupola {
 namespace {
 
 constexpr long most_history_lines = 400;
-constexpr double seconds_between_checkpoints = 60;
+constexpr double usual_checkpoint_interval = 60;  // s of wall time
 constexpr double seconds_between_progress = 1;
 
 std::filesystem::path granular_result(const std::filesystem::path& folder, const Task& task) {
@@ -105,12 +105,15 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
 }
 
 ExitCode TracerStage::run() {
+  // Work that was lost with its process was paid for as well.
+  if (const auto before = read_progress(folder_)) wall_before_ = before->wall_seconds;
   const auto found = checkpoints_.latest();
   if (found) {
     resume(found->file);
   } else {
     begin();
   }
+  last_checkpoint_ = wall_seconds();
   while (step_ < steps_.count) {
     step();
     const bool stop = StopRequest::agreed(MPI_COMM_WORLD) && step_ < steps_.count;
@@ -272,7 +275,8 @@ void TracerStage::resume(const std::filesystem::path& checkpoint) {
   const HdfReader file(checkpoint);
   require_mesh(file, read_header(file, "checkpoint"), mesh_.hash);
   step_ = static_cast<long>(file.integers("March/step", 1)[0]);
-  wall_before_ = file.doubles("March/wall_seconds", 1)[0];
+  steps_ = steps_from(steps_, step_, file.doubles("March/time", 1)[0], campaign_.tracer.duration);
+  wall_before_ = std::max(wall_before_, file.doubles("March/wall_seconds", 1)[0]);
   clock_.restore(nlohmann::json::parse(file.text("March/wall_seconds_by_part")).get<std::map<std::string, double>>());
   cells_at_floor_ = file.integers("March/cells_at_floor", 1)[0];
   ledger_ = Ledger::from_row(file.doubles("March/ledger"));
@@ -294,6 +298,7 @@ void TracerStage::write_checkpoint() {
     HdfWriter file(path);
     write_header(file, {"checkpoint", task_.campaign_hash, mesh_.hash});
     file.write("March/step", std::vector<std::int64_t>{step_});
+    file.write("March/time", std::vector<double>{time(static_cast<double>(step_))});
     file.write("March/wall_seconds", std::vector<double>{wall_seconds()});
     file.write_text("March/wall_seconds_by_part", nlohmann::json(clock_.seconds()).dump());
     file.write("March/cells_at_floor", std::vector<std::int64_t>{cells_at_floor_});
@@ -312,7 +317,7 @@ void TracerStage::write_checkpoint() {
 void TracerStage::write_output(bool checkpoint_now) {
   const double wall = wall_seconds();
   // Rank 0's clock decides for all.
-  int due = wall - last_checkpoint_ > seconds_between_checkpoints ? 1 : 0;
+  int due = wall - last_checkpoint_ > checkpoint_interval(usual_checkpoint_interval) ? 1 : 0;
   MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
   if (due != 0 || checkpoint_now) {
     write_checkpoint();

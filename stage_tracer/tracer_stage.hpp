@@ -51,7 +51,7 @@ class TracerStage {
   [[nodiscard]] nlohmann::json history_line() const;
   [[nodiscard]] MarchOutcome outcome();
 
-  [[nodiscard]] double time(double steps) const { return steps * steps_.length; }
+  [[nodiscard]] double time(double steps) const { return steps_.time(steps); }
   [[nodiscard]] double wall_seconds() const;
 
   FoamCase& foam_;
