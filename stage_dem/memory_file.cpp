@@ -38,8 +38,7 @@ std::vector<std::uint8_t> MemoryFile::bytes() const {
   if (::fstat(descriptor_, &state) != 0) fail("looked at");
   std::vector<std::uint8_t> content(static_cast<std::size_t>(state.st_size));
   for (std::size_t done = 0; done < content.size();) {
-    const ssize_t count =
-        ::pread(descriptor_, content.data() + done, content.size() - done, static_cast<off_t>(done));
+    const ssize_t count = ::pread(descriptor_, content.data() + done, content.size() - done, static_cast<off_t>(done));
     if (count == 0 || (count < 0 && errno != EINTR)) fail("read");
     done += count > 0 ? static_cast<std::size_t>(count) : 0;
   }
