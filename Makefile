@@ -10,8 +10,8 @@ CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
 
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
-	$(BUILD)/bin/cupola run cases/slot_quick/campaign.yaml --run-dir $(RUN_DIR)
-	@echo "== report: $(abspath $(RUN_DIR))/report/index.html"
+	@status=0; $(BUILD)/bin/cupola run cases/slot_quick/campaign.yaml --run-dir "$(RUN_DIR)" || status=$$?; \
+	[ ! -f "$(RUN_DIR)/report/index.html" ] || echo "== report: $$(realpath "$(RUN_DIR)")/report/index.html"; exit $$status
 
 test: build
 	@echo "== running the tests"

@@ -14,7 +14,8 @@ ExitCode init(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    throw Failure(ExitCode::input_output, fmt::format("{}: cannot be made: {}.", folder.string(), error.message()));
+    throw Failure(ExitCode::input_output,
+                  fmt::format("{}: cannot be made: {}. Choose another folder.", folder.string(), error.message()));
   write_text_atomically(file, starter_campaign());
   fmt::print(
       "{0}: a small furnace slot to begin with; change it to yours.\n"

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 
 #include "orchestrator/commands.hpp"
@@ -17,6 +18,19 @@ ExitCode submit_chain(RunFolder& run, const MarchOptions& options) {
       "  cupola status {}\n",
       run.campaign().name, jobs.size(), jobs.front(), jobs.back(), run.path().string());
   return ExitCode::done;
+}
+
+/// Opens the run folder; whoever only submits or looks holds it for a moment, which must not break the chain.
+std::unique_ptr<RunFolder> open_patiently(const std::filesystem::path& folder, SignalWatch& signals) {
+  constexpr int most_tries = 300;
+  for (int tries = 1;; ++tries) {
+    try {
+      return RunFolder::open(folder);
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::held || tries >= most_tries || signals.stop_requests() > 0) throw;
+    }
+    signals.wait(std::chrono::seconds(1));
+  }
 }
 
 bool has_ended(const RunFolder& run) {
@@ -39,7 +53,7 @@ ExitCode chain_link(const std::filesystem::path& folder, MarchOptions options) {
   SignalWatch signals;
   options.one_stage = true;
   {
-    const auto run = RunFolder::open(folder);
+    const auto run = open_patiently(folder, signals);
     try {
       go_on(*run, options, signals);
     } catch (const Failure&) {

@@ -42,6 +42,9 @@ ExitCode status(const std::filesystem::path& folder, bool as_json, bool again_an
 /// @param host address to listen at @param port 0: any free one
 ExitCode serve(const std::filesystem::path& folder, const std::string& host, int port);
 
+/// `cupola verify RUN`: compares every byte that carries a hash. @return done, or input_output where one differs
+ExitCode verify(const std::filesystem::path& folder, bool as_json);
+
 /// `cupola report RUN`: makes the report anew, at whatever point the run stands.
 ExitCode report(const std::filesystem::path& folder);
 

@@ -1,11 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "orchestrator/commands.hpp"
 #include "schemas/failure.hpp"
+#include "schemas/nearest.hpp"
 #include "schemas/version.hpp"
 
 namespace {
@@ -17,6 +23,18 @@ int tell(const Failure& failure) {
   fmt::print(stderr, "{}\n", failure.what());
   for (const auto& [key, value] : failure.advice()) fmt::print(stderr, "  try {}: {}\n", key, value);
   return static_cast<int>(failure.code());
+}
+
+/// What is wrong with the first word, where it is none of the commands.
+std::optional<Failure> wrong_command(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  const auto choices = fmt::format("one of {} (`cupola --help` explains them)", fmt::join(known, ", "));
+  if (argc < 2) return Failure(ExitCode::wrong_input, "say what to do: " + choices);
+  const std::string word = argv[1];
+  if (word.starts_with('-') || std::find(known.begin(), known.end(), word) != known.end()) return std::nullopt;
+  return Failure(ExitCode::wrong_input, fmt::format("there is no command `{}`{}: expected {}", word,
+                                                    cupola::suggestion(word, known), choices));
 }
 
 int run_command(const std::function<ExitCode()>& command) {
@@ -61,9 +79,13 @@ int main(int argc, char** argv) {
   const auto with_json = [&](CLI::App* sub) { sub->add_flag("--json", as_json, "Answer in JSON"); };
   const auto with_limits = [&](CLI::App* sub) {
     sub->add_option("--at-most", options.at_most, "Episodes at most, instead of the campaign's limit")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1000000));
+    sub->add_option("--ranks", options.ranks, "Ranks for the stages from now on, instead of the campaign's")
+        ->check(CLI::Range(1, 1000000));
+    sub->add_flag("--accept-versions", options.accept_versions,
+                  "Go on although program or libraries are of other versions than those the run goes by");
     sub->add_option("--until-episode", options.until_episode, "Stop after this episode; `resume` goes on")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1000000));
   };
 
   const auto with_submit = [&](CLI::App* sub) {
@@ -119,6 +141,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 65535));
   serve->callback([&] { command = [&] { return cupola::serve(folder, host, port); }; });
 
+  CLI::App* verify =
+      with_folder(app.add_subcommand("verify", "Compare every byte of a run with its hashes; changes nothing"));
+  with_json(verify);
+  verify->callback([&] { command = [&] { return cupola::verify(folder, as_json); }; });
+
   CLI::App* report =
       with_folder(app.add_subcommand("report", "Make the report of a run anew, at whatever point it stands"));
   report->callback([&] { command = [&] { return cupola::report(folder); }; });
@@ -130,6 +157,7 @@ int main(int argc, char** argv) {
   CLI::App* doctor = app.add_subcommand("doctor", "Check the installation, with a trial run on two ranks");
   doctor->callback([&] { command = [] { return cupola::doctor(); }; });
 
+  if (const auto wrong = wrong_command(app, argc, argv)) return tell(*wrong);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

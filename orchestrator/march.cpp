@@ -1,8 +1,10 @@
 #include "orchestrator/march.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -118,7 +120,7 @@ class March {
   }
 
   ExitCode stop(const std::string& why) {
-    run_.journal().append("orchestrator-stopped", {{"why", why}});
+    run_.journal().append("orchestrator-stopped", {{"why", why}, {"own", own_share()}});
     after_stage_();
     view_.say(fmt::format("stopped {}. `cupola resume {}` goes on.", why, run_.path().string()));
     return ExitCode::stopped;
@@ -126,7 +128,8 @@ class March {
 
   ExitCode end(Verdict verdict, int episode) {
     const ExitCode code = verdict == Verdict::converged ? ExitCode::done : ExitCode::stopped;
-    const json content = {{"outcome", to_text(verdict)}, {"episodes", episode}, {"status", static_cast<int>(code)}};
+    const json content = {
+        {"outcome", to_text(verdict)}, {"episodes", episode}, {"status", static_cast<int>(code)}, {"own", own_share()}};
     const json& last = run_.journal().records().back();
     const bool known = last.value("event", "") == "campaign-ended" && last.value("episodes", 0) == episode;
     if (!known) run_.journal().append("campaign-ended", content);
@@ -139,6 +142,20 @@ class March {
     return code;
   }
 
+  /// What this orchestrator took for itself: wall time without that of the stages, and processor time.
+  json own_share() const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun_;
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return {{"wall_seconds", (wall - stages_.waited()).count()},
+            {"cpu_seconds", seconds(usage.ru_utime) + seconds(usage.ru_stime)},
+            {"of_wall_seconds", wall.count()}};
+  }
+
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   RunFolder& run_;
   StageRunner stages_;
   ProgressView& view_;

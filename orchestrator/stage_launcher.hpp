@@ -30,9 +30,10 @@ class StageLauncher {
   /// Where the programs are.
   [[nodiscard]] const std::filesystem::path& folder() const { return programs_; }
 
- private:
+  /// The stage's program.
   [[nodiscard]] std::filesystem::path program(TaskKind kind) const;
 
+ private:
   std::filesystem::path programs_;
 };
 

@@ -28,8 +28,8 @@ void put_in_order(std::vector<CampaignError>& errors) {
 ReadCampaign read_campaign_document(YamlDocument document) {
   ReadCampaign result;
   if (document.complete && document.root.is_object()) {
-    static const auto schema = nlohmann::json::parse(campaign_schema());
-    check_against_schema(document, schema);
+    static const SchemaValidator validator(nlohmann::json::parse(campaign_schema()));
+    check_against_schema(document, validator);
     result.campaign = campaign_from_document(document);
     check_meaning(result.campaign, document);
   } else if (document.errors.empty()) {
@@ -43,10 +43,21 @@ ReadCampaign read_campaign_document(YamlDocument document) {
 ReadCampaign read_campaign_text(const std::string& text, const std::string& file_name) {
   if (text.size() > largest_file)
     return {{}, {{file_name, 1, 1, "", "the file is larger than 1 MB: this is no campaign file"}}};
+  if (text.find('\0') != std::string::npos)
+    return {{}, {{file_name, 1, 1, "", "the file holds bytes that are no text: this is no campaign file"}}};
   return read_campaign_document(parse_yaml(text, file_name));
 }
 
 ReadCampaign read_campaign(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) {
+    throw Failure(ExitCode::input_output,
+                  fmt::format("{}: there is no such file; `cupola init DIR` writes one to begin with", file.string()))
+        .at("file", file.string());
+  }
+  if (std::filesystem::is_directory(file)) {
+    throw Failure(ExitCode::input_output, fmt::format("{}: a folder; name the campaign file in it", file.string()))
+        .at("file", file.string());
+  }
   return read_campaign_text(read_text(file), file.string());
 }
 

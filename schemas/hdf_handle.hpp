@@ -30,8 +30,13 @@ class Handle {
 };
 
 /// File access without HDF5's own file locks (folders are locked by FolderLock, and a report reads while a stage
-/// writes), and with its error printing off, since errors leave as Failure.
+/// writes), in the format of HDF5 1.8, whose every structure but the values carries a checksum, and with its error
+/// printing off, since errors leave as Failure.
 Handle file_access();
+
+/// Least version of the superblock, byte 8 of a file, from which on HDF5's structures have checksums.  The library
+/// believes what older files say about themselves, and a damaged one can crash it.
+constexpr unsigned char least_superblock = 2;
 
 /// The deepest message on HDF5's error stack, for the end of a sentence; clears the stack.
 std::string last_error();

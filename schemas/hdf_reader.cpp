@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "schemas/failure.hpp"
@@ -41,6 +43,9 @@ struct HdfReader::State {
     }
     std::array<hsize_t, 2> extent{1, 1};
     H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+    if (extent[1] == 0) {
+      throw wrong(name, "is a table without columns");
+    }
     return {extent[0], extent[1]};
   }
 
@@ -131,6 +136,16 @@ HdfReader::HdfReader(std::filesystem::path file) : state_(std::make_unique<State
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(state_->path, ignored)) {
     throw state_->failure(ExitCode::input_output, "there is no such file");
+  }
+  // HDF5 looks for its signature further on where it is not at the beginning; ours is there.
+  std::array<unsigned char, 9> head{};
+  std::ifstream(state_->path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  if (std::memcmp(head.data(), "\x89HDF\r\n\x1a\n", 8) != 0) {
+    throw state_->failure(ExitCode::input_output, "not a whole HDF5 file (no signature at its beginning)");
+  }
+  if (head[8] < hdf::least_superblock) {
+    throw state_->failure(ExitCode::input_output,
+                          "not a whole HDF5 file (of a version without checksums, which cupola does not write)");
   }
   state_->file = {H5Fopen(state_->path.c_str(), H5F_ACC_RDONLY, hdf::file_access().get()), H5Fclose};
   if (!state_->file) {

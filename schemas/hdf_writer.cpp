@@ -10,6 +10,22 @@
 
 namespace cupola {
 
+namespace {
+
+/// How to create an object without time stamps, so that the same content has the same hash whenever it is written.
+hdf::Handle timeless(hid_t kind) {
+  hdf::Handle creation(H5Pcreate(kind), H5Pclose);
+  H5Pset_obj_track_times(creation.get(), false);
+  return creation;
+}
+
+std::string parent_of(const std::string& name) {
+  const auto slash = name.find_last_of('/');
+  return slash == std::string::npos ? "" : name.substr(0, slash);
+}
+
+}  // namespace
+
 struct HdfWriter::State {
   std::filesystem::path final_file;
   std::filesystem::path temporary_file;
@@ -29,14 +45,20 @@ struct HdfWriter::State {
     return handle.get();
   }
 
+  /// Makes a group and those on the way to it, where they are not there yet.
+  void make_group(const std::string& name) const {
+    if (name.empty() || name == "/" || hdf::exists(file(), name)) return;
+    make_group(parent_of(name));
+    const auto creation = timeless(H5P_GROUP_CREATE);
+    const hdf::Handle group(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose);
+    if (!group) fail("group '" + name + "'");
+  }
+
   /// One dataset of raw memory of a given type, groups on the way made.
   void dataset(const std::string& name, hid_t type, const hdf::Handle& space, const void* values) const {
-    const hdf::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(links.get(), 1);
-    // Without time stamps, so that the same content has the same hash whenever it is written.
-    const hdf::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_obj_track_times(creation.get(), false);
-    const hdf::Handle set(H5Dcreate2(file(), name.c_str(), type, space.get(), links.get(), creation.get(), H5P_DEFAULT),
+    make_group(parent_of(name));
+    const auto creation = timeless(H5P_DATASET_CREATE);
+    const hdf::Handle set(H5Dcreate2(file(), name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
                           H5Dclose);
     if (!set || H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
       fail("dataset '" + name + "'");
@@ -56,14 +78,7 @@ struct HdfWriter::State {
 
   void attribute(const std::string& object, const std::string& name, hid_t type, const hdf::Handle& space,
                  const void* value) const {
-    if (object != "/" && !hdf::exists(file(), object)) {
-      const hdf::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-      H5Pset_create_intermediate_group(links.get(), 1);
-      const hdf::Handle group(H5Gcreate2(file(), object.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-      if (!group) {
-        fail("group '" + object + "'");
-      }
-    }
+    make_group(object);
     const hdf::Handle written(H5Acreate_by_name(file(), object.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
                                                 H5P_DEFAULT, H5P_DEFAULT),
                               H5Aclose);
@@ -91,8 +106,9 @@ hdf::Handle string_type(std::size_t length, H5T_cset_t characters) {
 HdfWriter::HdfWriter(std::filesystem::path file) : state_(std::make_unique<State>()) {
   state_->final_file = std::move(file);
   state_->temporary_file = temporary_beside(state_->final_file);
+  const auto creation = timeless(H5P_FILE_CREATE);
   state_->handle = hdf::Handle(
-      H5Fcreate(state_->temporary_file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, hdf::file_access().get()), H5Fclose);
+      H5Fcreate(state_->temporary_file.c_str(), H5F_ACC_TRUNC, creation.get(), hdf::file_access().get()), H5Fclose);
   if (!state_->handle) {
     state_->fail("the file");
   }

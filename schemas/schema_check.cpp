@@ -6,10 +6,6 @@
 #include <algorithm>
 #include <regex>
 #include <set>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "schemas/nearest.hpp"
 #include "schemas/units.hpp"
@@ -109,9 +105,9 @@ class Check {
  public:
   Check(YamlDocument& document, const Schema& schema) : document_(document), schema_(schema) {}
 
-  void run() {
+  void run(const SchemaValidator& validator) {
     convert(document_.root, schema_, "");
-    validate();
+    validate(validator);
   }
 
  private:
@@ -154,33 +150,22 @@ class Check {
   }
 
   /// valijson says where the document breaks the schema; the words are ours.
-  void validate() {
-    valijson::Schema compiled;
-    valijson::SchemaParser parser;
-    const valijson::adapters::NlohmannJsonAdapter schema_adapter(schema_);
-    parser.populateSchema(schema_adapter, compiled);
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    valijson::ValidationResults results;
-    const Schema plain(document_.root);
-    const valijson::adapters::NlohmannJsonAdapter target(plain);
-    if (validator.validate(compiled, target, &results)) return;
-
+  void validate(const SchemaValidator& validator) {
+    const auto breaks = validator.breaks(Schema(document_.root));
     std::set<std::vector<std::string>> places;
     const auto before = document_.errors.size();
-    for (const auto& error : results) {
-      if (places.insert(error.context).second) explain(error.context);
+    for (const auto& one : breaks) {
+      if (places.insert(one.path).second) explain(one.path);
     }
-    if (document_.errors.size() == before && failed_.empty())
-      add("", fmt::format("the file breaks the schema: {}", results.begin()->description));
+    if (!breaks.empty() && document_.errors.size() == before && failed_.empty())
+      add("", fmt::format("the file breaks the schema: {}", breaks.front().description));
   }
 
-  void explain(const std::vector<std::string>& context) {
+  void explain(const std::vector<std::string>& keys) {
     const Schema* schema = &schema_;
     const Json* value = &document_.root;
     std::string path;
-    for (std::size_t i = 1; i < context.size() && schema != nullptr;
-         ++i) {  // the first is the root; others are `[key]`
-      const auto key = context[i].substr(1, context[i].size() - 2);
+    for (const auto& key : keys) {
       if (value->is_array()) {
         const auto index = std::stoul(key);
         schema = item_schema(*schema, index);
@@ -191,8 +176,9 @@ class Check {
         value = &value->at(key);
         path = path_of(path, key);
       }
+      if (schema == nullptr) return;
     }
-    if (schema != nullptr) explain(*value, *schema, path);
+    explain(*value, *schema, path);
   }
 
   void explain(const Json& value, const Schema& schema, const std::string& path) {
@@ -288,6 +274,8 @@ class Check {
 
 }  // namespace
 
-void check_against_schema(YamlDocument& document, const nlohmann::json& schema) { Check(document, schema).run(); }
+void check_against_schema(YamlDocument& document, const SchemaValidator& validator) {
+  Check(document, validator.schema()).run(validator);
+}
 
 }  // namespace cupola

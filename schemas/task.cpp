@@ -71,7 +71,7 @@ TaskInput read_input(const std::filesystem::path& folder, const Members& members
 
 }  // namespace
 
-void write_task(const std::filesystem::path& folder, const Task& task) {
+std::string task_text(const Task& task) {
   Json inputs = Json::object();
   for (const auto& [name, input] : task.inputs) inputs[name] = {{"file", input.file.string()}, {"hash", input.hash}};
   const Json json{{"schema", file_schema_version},
@@ -82,17 +82,30 @@ void write_task(const std::filesystem::path& folder, const Task& task) {
                   {"random_seed", task.random_seed},
                   {"inputs", inputs},
                   {"campaign", resolved_json(task.campaign)}};
-  write_text_atomically(folder / task_file, yaml_text(json));
+  return yaml_text(json);
+}
+
+void write_task(const std::filesystem::path& folder, const Task& task) {
+  write_text_atomically(folder / task_file, task_text(task));
 }
 
 Task read_task(const std::filesystem::path& folder) {
   const auto file = folder / task_file;
+  if (!std::filesystem::exists(file)) {
+    throw Failure(ExitCode::wrong_input, fmt::format("{}: not a task folder ({} is missing); `cupola run` makes them",
+                                                     folder.string(), task_file))
+        .at("file", file.string());
+  }
   auto document = parse_yaml(read_text(file), file.string());
   if (!document.errors.empty())
-    throw Failure(ExitCode::wrong_input, to_text(document.errors)).at("file", file.string());
+    throw Failure(ExitCode::wrong_input, to_text(document.errors) +
+                                             "cupola wrote this file whole: it was changed or "
+                                             "damaged. Move its task folder away and resume.")
+        .at("file", file.string());
   const Members members(document.root, file, "");
   if (const auto schema = members.count("schema"); schema != file_schema_version) {
-    refuse(file, fmt::format("it is written in file schema {}, this program reads {}", schema, file_schema_version));
+    refuse(file, fmt::format("it is written in file schema {}, this program reads {}: use the program that wrote it",
+                             schema, file_schema_version));
   }
   Task task;
   const auto kind = members.text("kind");

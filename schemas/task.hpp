@@ -35,6 +35,9 @@ struct Task {
   Campaign campaign;  ///< resolved
 };
 
+/// The text of `task.yaml`.
+std::string task_text(const Task& task);
+
 /// Writes `task.yaml` atomically into the folder. @throws Failure input_output
 void write_task(const std::filesystem::path& folder, const Task& task);
 

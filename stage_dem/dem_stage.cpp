@@ -340,8 +340,10 @@ void DemStage::report_progress(bool now) {
       progress.process_seconds_total = state_.time - state_.phase_time + ahead;
       break;
     case DemPhase::averaging:
-    case DemPhase::done:
       progress.process_seconds_total = state_.time - state_.phase_time + campaign_.dem.window;
+      break;
+    case DemPhase::done:
+      progress.process_seconds_total = state_.time;
       break;
     default:
       progress.process_seconds_total = state_.time + ahead;

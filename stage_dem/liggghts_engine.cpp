@@ -13,14 +13,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <unordered_set>
 
 #include "schemas/failure.hpp"
+#include "schemas/plain_path.hpp"
 #include "stage_dem/liggghts_instance.hpp"
 #include "stage_dem/liggghts_script.hpp"
+#include "stage_dem/memory_file.hpp"
 #include "stage_dem/parcels.hpp"
 
 namespace cupola {
@@ -29,7 +29,9 @@ namespace {
 class LiggghtsEngine final : public Engine {
  public:
   LiggghtsEngine(const Campaign& campaign, const EngineSetUp& set_up, MPI_Comm communicator)
-      : liggghts_(communicator, set_up.folder + "/liggghts.log"), folder_(set_up.folder), depth_(period(campaign)) {
+      : plain_folder_(set_up.folder),
+        liggghts_(communicator, (plain_folder_.path() / "liggghts.log").string()),
+        depth_(period(campaign)) {
     for (const auto& line : liggghts_opening(campaign, liggghts_.ranks())) liggghts_.command(line);
     int resumed = set_up.from.empty() ? 0 : 1;
     MPI_Bcast(&resumed, 1, MPI_INT, 0, liggghts_.communicator());
@@ -38,7 +40,10 @@ class LiggghtsEngine final : public Engine {
     } else {
       for (const auto& line : liggghts_box(campaign)) liggghts_.command(line);
     }
-    for (const auto& line : liggghts_physics(campaign, set_up.wall_file, set_up.time_step)) liggghts_.command(line);
+    const std::filesystem::path wall(set_up.wall_file);
+    const PlainPath wall_folder(wall.parent_path());
+    const auto wall_file = (wall_folder.path() / wall.filename()).string();
+    for (const auto& line : liggghts_physics(campaign, wall_file, set_up.time_step)) liggghts_.command(line);
     if (resumed != 0) make_ready();
   }
 
@@ -132,20 +137,9 @@ class LiggghtsEngine final : public Engine {
   }
 
   std::vector<std::uint8_t> snapshot() override {
-    const std::string file = folder_ + "/liggghts.restart";
-    liggghts_.command("write_restart " + file);
-    std::vector<std::uint8_t> bytes;
-    if (liggghts_.rank() == 0) {
-      std::ifstream stream(file, std::ios::binary);
-      bytes.assign(std::istreambuf_iterator<char>(stream), {});
-      stream.close();
-      std::filesystem::remove(file);
-      if (bytes.empty())
-        throw Failure(ExitCode::input_output,
-                      "LIGGGHTS' restart file could not be written and read back: is the disk full?")
-            .at("file", file);
-    }
-    return bytes;
+    const MemoryFile file;
+    liggghts_.command("write_restart " + file.name());
+    return liggghts_.rank() == 0 ? file.bytes() : std::vector<std::uint8_t>{};
   }
 
  private:
@@ -158,17 +152,8 @@ class LiggghtsEngine final : public Engine {
   }
 
   void read_restart(const std::vector<std::uint8_t>& bytes) {
-    const std::string file = folder_ + "/liggghts.restart";
-    if (liggghts_.rank() == 0) {
-      std::ofstream stream(file, std::ios::binary);
-      stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-      if (!stream)
-        throw Failure(ExitCode::input_output, "LIGGGHTS' restart file could not be written").at("file", file);
-    }
-    MPI_Barrier(liggghts_.communicator());
-    liggghts_.command("read_restart " + file);
-    MPI_Barrier(liggghts_.communicator());
-    if (liggghts_.rank() == 0) std::filesystem::remove(file);
+    const MemoryFile file(bytes);
+    liggghts_.command("read_restart " + file.name());
   }
 
   /// The first run sets per-parcel properties to their defaults, or to what the restart file holds: an empty one before
@@ -285,8 +270,8 @@ class LiggghtsEngine final : public Engine {
     throw Failure(ExitCode::diverged, "parcels were lost while others were added");
   }
 
+  PlainPath plain_folder_;
   LiggghtsInstance liggghts_;
-  std::string folder_;
   double depth_;        ///< m, period along y; 0 with walls
   bool ready_ = false;  ///< whether a first run has been made
 };

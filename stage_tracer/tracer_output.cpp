@@ -11,7 +11,7 @@ namespace cupola {
 namespace {
 
 constexpr long most_history_lines = 400;
-constexpr double seconds_between_checkpoints = 60;
+constexpr double usual_checkpoint_interval = 60;  // s of wall time
 constexpr double seconds_between_progress = 1;
 
 /// Largest over mean of a figure of each rank.
@@ -28,7 +28,7 @@ double imbalance(double mine, const SumOverRanks& sum) {
 void TracerStage::write_output(bool checkpoint_now, bool last) {
   const double wall = wall_seconds();
   // Rank 0's clock decides for all.
-  int due = wall - last_checkpoint_ > seconds_between_checkpoints ? 1 : 0;
+  int due = wall - last_checkpoint_ > checkpoint_interval(usual_checkpoint_interval) ? 1 : 0;
   MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
   if (due != 0 || checkpoint_now) {
     write_checkpoint();

@@ -103,6 +103,8 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
 }
 
 ExitCode TracerStage::run() {
+  // Work that was lost with its process was paid for as well.
+  if (const auto before = read_progress(folder_)) wall_before_ = before->wall_seconds;
   const auto found = checkpoints_.latest();
   if (found) {
     resume(found->file);
@@ -110,6 +112,7 @@ ExitCode TracerStage::run() {
     clock_.add("preparation", wall_seconds());
     begin();
   }
+  last_checkpoint_ = wall_seconds();
   bool done = step_ >= steps_.count;
   while (!done) {
     if (campaign_.heat && is_power_of_four(step_)) estimate_error();

@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "stage_tracer/tracer_stage.hpp"
@@ -10,9 +12,15 @@ namespace cupola {
 void TracerStage::resume(const std::filesystem::path& checkpoint) {
   const HdfReader file(checkpoint);
   require_mesh(file, read_header(file, "checkpoint"), mesh_.hash);
-  wall_before_ = file.doubles("March/wall_seconds", 1)[0];
+  wall_before_ = std::max(wall_before_, file.doubles("March/wall_seconds", 1)[0]);
   clock_.restore(nlohmann::json::parse(file.text("March/wall_seconds_by_part")).get<std::map<std::string, double>>());
   read_state(file);
+  // A retry may ask for shorter steps than the checkpoint's: what remains is filled anew.
+  constexpr double round_off = 1e-9;
+  if (campaign_.tracer.time_step && steps_.length > *campaign_.tracer.time_step * (1 + round_off)) {
+    const TimeSteps rest = fill_with_steps(campaign_.tracer.longest() - now_, *campaign_.tracer.time_step);
+    steps_ = {step_ + rest.count, rest.length};
+  }
   if (foam_.rank() == 0) {
     cut_history(folder_, step_);
     spdlog::info("going on from step {} of {}", step_, steps_.count);

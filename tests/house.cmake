@@ -9,5 +9,7 @@ foreach(program cupola cupola-dem cupola-tracer)
   set_tests_properties(house.${program}_version PROPERTIES PASS_REGULAR_EXPRESSION "${PROJECT_VERSION}")
 endforeach()
 add_test(NAME house.no_private_words COMMAND "${CMAKE_SOURCE_DIR}/tests/house/no_private_words.sh" "${CMAKE_SOURCE_DIR}")
+add_test(NAME house.install_packages COMMAND "${CMAKE_SOURCE_DIR}/tests/house/install_packages_test.sh" "${CMAKE_SOURCE_DIR}")
+set_tests_properties(house.install_packages PROPERTIES LABELS unit)
 set_tests_properties(house.orchestrator_links_no_solver house.no_private_words house.cupola_version house.cupola-dem_version
                      house.cupola-tracer_version PROPERTIES LABELS unit)

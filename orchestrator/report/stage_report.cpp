@@ -1,5 +1,7 @@
 #include "orchestrator/report/stage_report.hpp"
 
+#include <algorithm>
+
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 
@@ -70,6 +72,7 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
     return stage;
   }
   stage.history = read_history(stage.state.folder);
+  const double wall_seconds = wall_seconds_of_stage(run.folder, episode, kind);
   if (stage.state.condition == StageState::Condition::finished) {
     read_stage_result(stage, run);
   } else {
@@ -78,6 +81,8 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
       stage.sentence = failure->value("sentence", "");
     }
   }
+  // What failed attempts and lost work have cost counts too.
+  stage.summary["wall_seconds"] = std::max(stage.summary.value("wall_seconds", 0.), wall_seconds);
   return stage;
 }
 

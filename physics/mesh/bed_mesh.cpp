@@ -36,9 +36,9 @@ std::string patch_names(const std::vector<BedMesh::Patch>& patches) {
 }
 
 std::vector<BedMesh::Patch> read_patches(const HdfReader& hdf, const std::filesystem::path& file) {
-  const std::vector<std::int64_t> first = hdf.integers("Mesh/patch_first");
-  const std::vector<std::int64_t> faces = hdf.integers("Mesh/patch_faces", static_cast<std::int64_t>(first.size()));
-  const std::vector<std::int64_t> kind = hdf.integers("Mesh/patch_kind", static_cast<std::int64_t>(first.size()));
+  const std::vector<std::int64_t> first = hdf.integers("Mesh/patch_first", -1, 1);
+  const std::vector<std::int64_t> faces = hdf.integers("Mesh/patch_faces", static_cast<std::int64_t>(first.size()), 1);
+  const std::vector<std::int64_t> kind = hdf.integers("Mesh/patch_kind", static_cast<std::int64_t>(first.size()), 1);
   std::istringstream names(hdf.text("Mesh/patch_names"));
   std::vector<BedMesh::Patch> patches(first.size());
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -62,6 +62,14 @@ void check(const BedMesh& mesh, const std::filesystem::path& file) {
   };
   bool sound = all_below(mesh.face_owner, 0, mesh.cells()) && all_below(mesh.face_neighbour, -1, mesh.cells()) &&
                all_below(mesh.face_partner, -1, mesh.faces()) && mesh.internal_face_count <= mesh.faces();
+  // An internal face has a cell on both sides; a patch lies beyond the internal faces and within all.
+  for (std::size_t f = 0; sound && f < mesh.internal_face_count; ++f) sound = mesh.face_neighbour[f] >= 0;
+  const auto faces = static_cast<std::int64_t>(mesh.faces());
+  for (const auto& patch : mesh.patches) {
+    sound = sound && patch.first_face >= static_cast<std::int64_t>(mesh.internal_face_count) && patch.faces >= 0 &&
+            patch.first_face <= faces && patch.faces <= faces - patch.first_face;
+  }
+  sound = sound && mesh.cells() > 0 && !mesh.points.empty();
   for (const auto& cell : mesh.cell_faces) sound = sound && all_below(cell, 0, mesh.faces());
   for (const auto& cell : mesh.cell_points) sound = sound && all_below(cell, 0, mesh.points.size());
   for (const auto& face : mesh.face_points) sound = sound && all_below(face, 0, mesh.points.size());
@@ -110,19 +118,19 @@ BedMesh BedMesh::read(const std::filesystem::path& file) {
   BedMesh mesh;
   mesh.points = in_rows<3>(fields.points());
   mesh.cell_points = in_rows<8>(fields.cell_points());
-  mesh.cell_faces = in_rows<6>(hdf.integers("Mesh/cell_faces", cells));
-  mesh.cell_volume = hdf.doubles("Mesh/cell_volume", cells);
-  mesh.cell_centre = in_rows<3>(hdf.doubles("Mesh/cell_centre", cells));
-  mesh.face_owner = hdf.integers("Mesh/face_owner");
+  mesh.cell_faces = in_rows<6>(hdf.integers("Mesh/cell_faces", cells, 6));
+  mesh.cell_volume = hdf.doubles("Mesh/cell_volume", cells, 1);
+  mesh.cell_centre = in_rows<3>(hdf.doubles("Mesh/cell_centre", cells, 3));
+  mesh.face_owner = hdf.integers("Mesh/face_owner", -1, 1);
   const auto faces = static_cast<std::int64_t>(mesh.face_owner.size());
-  mesh.face_neighbour = hdf.integers("Mesh/face_neighbour", faces);
-  mesh.face_partner = hdf.integers("Mesh/face_partner", faces);
-  mesh.face_points = in_rows<4>(hdf.integers("Mesh/face_points", faces));
-  mesh.face_area = in_rows<3>(hdf.doubles("Mesh/face_area", faces));
-  mesh.face_centre = in_rows<3>(hdf.doubles("Mesh/face_centre", faces));
-  mesh.internal_face_count = static_cast<std::size_t>(hdf.integers("Mesh/internal_faces", 1).front());
+  mesh.face_neighbour = hdf.integers("Mesh/face_neighbour", faces, 1);
+  mesh.face_partner = hdf.integers("Mesh/face_partner", faces, 1);
+  mesh.face_points = in_rows<4>(hdf.integers("Mesh/face_points", faces, 4));
+  mesh.face_area = in_rows<3>(hdf.doubles("Mesh/face_area", faces, 3));
+  mesh.face_centre = in_rows<3>(hdf.doubles("Mesh/face_centre", faces, 3));
+  mesh.internal_face_count = static_cast<std::size_t>(hdf.integers("Mesh/internal_faces", 1, 1).front());
   mesh.patches = read_patches(hdf, file);
-  mesh.periodic_depth = hdf.doubles("Mesh/periodic_depth", 1).front();
+  mesh.periodic_depth = hdf.doubles("Mesh/periodic_depth", 1, 1).front();
   check(mesh, file);
   mesh.find_bounds();
   mesh.hash = hash_file(file);

@@ -14,9 +14,11 @@
 #include <sigSegv.H>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "physics/mesh/foam_errors.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -108,8 +110,10 @@ struct FoamCase::State {
   void start_foam(const std::filesystem::path& folder, const std::string& program) {
     with_foam_errors(ExitCode::input_output, fmt::format("OpenFOAM cannot read {}", folder.string()), [&] {
       Foam::messageStream::level = 0;
+      Foam::fileName::debug = 0;  // else it ends the program over a blank in the name of the folder it is started in
       Foam::argList::noBanner();
-      words = {program, "-case", folder.string(), "-noFunctionObjects"};
+      plain_folder.emplace(folder);
+      words = {program, "-case", plain_folder->path().string(), "-noFunctionObjects"};
       if (ranks > 1) words.emplace_back("-parallel");
       for (std::string& word : words) word_pointers.push_back(word.data());
       word_pointers.push_back(nullptr);
@@ -162,6 +166,7 @@ struct FoamCase::State {
     }
   }
 
+  std::optional<PlainPath> plain_folder;
   std::vector<std::string> words;  ///< argList keeps pointers to them
   std::vector<char*> word_pointers;
   int foam_argc = 0;

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "schemas/files.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -23,6 +24,9 @@ class OutputTo {
     posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+    // OpenFOAM looks at the name of the folder it is started in, and ends where there is a blank in it.  (Nor has it
+    // the variable PWD for the same reason: see ToolEnvironment.)
+    posix_spawn_file_actions_addchdir_np(&actions_, "/");
   }
   ~OutputTo() { posix_spawn_file_actions_destroy(&actions_); }
   OutputTo(const OutputTo&) = delete;
@@ -42,7 +46,7 @@ class ToolEnvironment {
     for (char** entry = environ; *entry != nullptr; ++entry) {
       const std::string variable(*entry);
       if (variable.starts_with("OMPI_COMM_WORLD") || variable.starts_with("PMIX_") ||
-          variable.starts_with("FOAM_CASE")) {
+          variable.starts_with("FOAM_CASE") || variable.starts_with("PWD=")) {
         continue;
       }
       has_project_folder = has_project_folder || variable.starts_with("WM_PROJECT_DIR=");
@@ -79,8 +83,10 @@ int wait_for(pid_t child) {
 
 std::string run_foam_tool(const std::string& program, const std::vector<std::string>& options,
                           const std::filesystem::path& case_folder) {
-  const std::filesystem::path log = case_folder / ("log." + program);
-  std::vector<std::string> words{program, "-case", case_folder.string()};
+  const std::filesystem::path folder = std::filesystem::absolute(case_folder);
+  const std::filesystem::path log = folder / ("log." + program);
+  const PlainPath plain(folder);
+  std::vector<std::string> words{program, "-case", plain.path().string()};
   words.insert(words.end(), options.begin(), options.end());
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);

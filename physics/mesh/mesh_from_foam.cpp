@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "physics/mesh/foam_errors.hpp"
+#include "schemas/plain_path.hpp"
 
 namespace cupola {
 namespace {
@@ -119,8 +120,10 @@ BedMesh mesh_from_foam(const std::filesystem::path& case_folder, const Campaign&
   return with_foam_errors(
       ExitCode::input_output, fmt::format("OpenFOAM cannot read the mesh in {}", case_folder.string()), [&] {
         Foam::messageStream::level = 0;
-        const Foam::Time time(Foam::Time::controlDictName, case_folder.parent_path().string(),
-                              Foam::fileName(case_folder.filename().string()), "system", "constant", false, false);
+        Foam::fileName::debug = 0;  // else it ends the program over a blank in the name of the folder it is started in
+        const PlainPath plain(case_folder);
+        const Foam::Time time(Foam::Time::controlDictName, plain.path().parent_path().string(),
+                              Foam::fileName(plain.path().filename().string()), "system", "constant", false, false);
         const Foam::polyMesh foam(
             Foam::IOobject(Foam::polyMesh::defaultRegion, time.timeName(), time, Foam::IOobject::MUST_READ));
         BedMesh mesh;

@@ -21,8 +21,8 @@ expect() {
 
 tiny=$source/cases/tiny/campaign.yaml
 expect 0 "cupola 0." "$cupola" --version
-expect 65 "subcommand" "$cupola"
-expect 65 "" "$cupola" no-such-command
+expect 65 "say what to do" "$cupola"
+expect 65 "did you mean \`validate\`" "$cupola" valdate
 for campaign in tiny slot_quick slot_paper; do
   expect 0 "is valid" "$cupola" validate "$source/cases/$campaign/campaign.yaml"
 done
