@@ -48,6 +48,8 @@ struct MarchOutcome {
   double wall_seconds = 0;
   std::map<std::string, double> wall_seconds_by_part{};
   std::int64_t cells_at_floor = 0;
+  std::vector<double> largest_biot{};  ///< of each species, in the last step
+  nlohmann::json gas_comparison{};     ///< of both gas models, where asked for
 };
 
 /// Writes `result.hdf` of the task folder as docs/contracts.md has it.

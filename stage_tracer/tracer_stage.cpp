@@ -12,6 +12,7 @@
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "stage_tracer/displacement.hpp"
+#include "stage_tracer/gas_comparison.hpp"
 #include "stage_tracer/seeding.hpp"
 
 namespace cupola {
@@ -174,7 +175,7 @@ void TracerStage::compose() {
 
 void TracerStage::exchange_heat() {
   const auto running = clock_.measure("heat");
-  heat_.advance(tracers_, contents_, bed_volume_, bed_, gas_.get(), steps_.length);
+  ledger_.walls += heat_.advance(tracers_, contents_, bed_volume_, bed_, gas_.get(), steps_.length);
   if (!gas_) return;
   const GasEnergy::Ledger& gas = gas_->energy_ledger();
   ledger_.blast += gas.blast * steps_.length;
@@ -255,9 +256,9 @@ void TracerStage::begin_gas() {
   constexpr int most_turns = 20;
   for (int turn = 0; turn < most_turns; ++turn) {
     const std::vector<double> before = gas_->temperature();
-    gas_->solve_energy(bed_, heat_.solids_at_rest(contents_, gas_->flow().mass_flux()));
+    gas_->solve_energy(bed_, heat_.solids_at_rest(contents_, bed_, *gas_));
     if (settle) {
-      heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, *gas_);
+      heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, bed_, *gas_);
       compose();
     }
     gas_->solve_flow_tightly(bed_);
@@ -370,6 +371,9 @@ MarchOutcome TracerStage::outcome() {
   result.wall_seconds = wall_seconds();
   result.wall_seconds_by_part = clock_.seconds();
   result.cells_at_floor = cells_at_floor_;
+  result.largest_biot = heat_.largest_biot();
+  if (gas_ && campaign_.tracer.compare_gas_models)
+    result.gas_comparison = compare_gas_models(foam_, mesh_, campaign_, bed_, gas_->temperature());
   return result;
 }
 
