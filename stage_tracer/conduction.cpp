@@ -81,9 +81,9 @@ BySpecies Conduction::conductivities(const CellContents& contents, const BySpeci
     for (const auto& volume : bed_volume) fraction += volume[c] / mesh_.cell_volume[c];
     for (std::size_t s = 0; s < species; ++s) {
       const Species& material = campaign_.species[s];
-      const double temperature = contents.temperature[s][c];
       // A species that is not there has no temperature and conducts nothing.
-      if (!(temperature > 0)) continue;
+      if (!(contents.volume[s][c] > 0)) continue;
+      const double temperature = contents.temperature[s][c];
       const double solid = material.conductivity.at(temperature);
       result[s][c] = with_gas
                          ? bed_conductivity_zehner_bauer_schluender(

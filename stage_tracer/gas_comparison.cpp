@@ -58,6 +58,8 @@ nlohmann::json compare_gas_models(FoamCase& foam, const BedMesh& mesh, const Cam
   const std::vector<double> distance = distance_to_inlets(mesh);
   std::array<Sums, limits.size() - 1> rows{};
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    // In the freeboard Darcy and Forchheimer's field means nothing.
+    if (bed.void_fraction[c] > 1 - 1e-6) continue;
     std::size_t row = 0;
     while (row + 1 < rows.size() && distance[c] >= limits[row + 1]) ++row;
     Sums& sums = rows[row];

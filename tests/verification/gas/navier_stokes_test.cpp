@@ -172,6 +172,7 @@ TEST(NavierStokes, GoesOnFromItsWarmStartBitByBit) {
 TEST(NavierStokes, GasFasterThanItsHeatIsAFailureThatAdvisesDarcyForchheimer) {
   Slot slot;
   for (auto& inlet : slot.campaign.scene.gas->inlets) inlet.mass_flow = 200;
+  slot.bed = uniform_bed(slot.scene.mesh, 0.95, 2);  // hardly any drag that would raise the pressure
   NavierStokes flow(slot.scene.foam, slot.scene.mesh, slot.campaign);
   try {
     flow.solve(slot.bed, slot.temperature, 1e-6, 100);
