@@ -6,7 +6,7 @@ RUN_DIR ?= runs/slot_quick
 ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
 CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
 
-.PHONY: run test test-long test-slurm setup build bench sanitize tidy tidy-all format-check clean
+.PHONY: run test test-long test-slurm setup build bench bench-reference sanitize tidy tidy-all format-check clean
 
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
@@ -37,6 +37,11 @@ build: setup
 
 bench: build
 	@tools/run_benchmarks.sh $(BUILD)
+
+# The tracer stage's reference at full size: hours; goes on where it was interrupted.  Its reduced field is kept with the sources.
+REFERENCE_STEP ?= 0.25
+bench-reference: build
+	$(BUILD)/bin/bench_tracer reference --step $(REFERENCE_STEP) --ranks 2
 
 # The address and undefined-behaviour sanitizers, in a tree of their own, on the programs of unit tests that need no solver.
 SANITIZED := test_closures

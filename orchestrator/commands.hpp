@@ -19,6 +19,10 @@ ExitCode explain(const std::filesystem::path& campaign_file, bool as_json);
 ExitCode run(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder,
              const MarchOptions& options);
 
+/// `cupola predict CAMPAIGN`: the steady state without any stage, with a report (docs/predictor.md).
+/// @param folder as of `run`; the campaign can be run there afterwards
+ExitCode predict(const std::filesystem::path& campaign_file, const std::optional<std::filesystem::path>& folder);
+
 /// `cupola resume RUN`
 ExitCode resume(const std::filesystem::path& folder, const MarchOptions& options);
 
@@ -37,6 +41,9 @@ ExitCode status(const std::filesystem::path& folder, bool as_json, bool again_an
 /// `cupola serve RUN`: the report in a browser while the campaign runs; until a signal comes.
 /// @param host address to listen at @param port 0: any free one
 ExitCode serve(const std::filesystem::path& folder, const std::string& host, int port);
+
+/// `cupola verify RUN`: compares every byte that carries a hash. @return done, or input_output where one differs
+ExitCode verify(const std::filesystem::path& folder, bool as_json);
 
 /// `cupola report RUN`: makes the report anew, at whatever point the run stands.
 ExitCode report(const std::filesystem::path& folder);

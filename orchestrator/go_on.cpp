@@ -5,6 +5,8 @@
 
 #include "orchestrator/child_process.hpp"
 #include "orchestrator/report/report.hpp"
+#include "orchestrator/stage_state.hpp"
+#include "orchestrator/stage_versions.hpp"
 #include "schemas/version.hpp"
 
 namespace cupola {
@@ -17,6 +19,13 @@ ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& sign
   folder.journal().append(
       "orchestrator-started",
       {{"host", self.host}, {"pid", self.pid}, {"program_version", program_version}, {"at_most", at_most}});
+  settle_versions(folder, present_versions(launcher), options.accept_versions);
+  if (options.ranks && *options.ranks != ranks_in_force(folder.journal().records(), folder.campaign().launch.ranks)) {
+    if (folder.campaign().launch.slurm)
+      throw Failure(ExitCode::wrong_input,
+                    "--ranks does not go with launch.slurm, whose jobs ask for the campaign's ranks.");
+    folder.journal().append("ranks-changed", {{"ranks", *options.ranks}});
+  }
   // A campaign of days does not end because its report cannot be written: that is said, and `cupola report` makes it
   // later.
   const AfterStage renew_report = [&] {

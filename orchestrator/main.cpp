@@ -80,6 +80,10 @@ int main(int argc, char** argv) {
   const auto with_limits = [&](CLI::App* sub) {
     sub->add_option("--at-most", options.at_most, "Episodes at most, instead of the campaign's limit")
         ->check(CLI::Range(1, 1000000));
+    sub->add_option("--ranks", options.ranks, "Ranks for the stages from now on, instead of the campaign's")
+        ->check(CLI::Range(1, 1000000));
+    sub->add_flag("--accept-versions", options.accept_versions,
+                  "Go on although program or libraries are of other versions than those the run goes by");
     sub->add_option("--until-episode", options.until_episode, "Stop after this episode; `resume` goes on")
         ->check(CLI::Range(1, 1000000));
   };
@@ -97,6 +101,11 @@ int main(int argc, char** argv) {
       app.add_subcommand("explain", "Say what will be computed and why, whether the ore melts, how long it takes"));
   with_json(explain);
   explain->callback([&] { command = [&] { return cupola::explain(campaign, as_json); }; });
+
+  CLI::App* predict =
+      with_campaign(app.add_subcommand("predict", "Predict the steady state in a minute, without running any stage"));
+  predict->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
+  predict->callback([&] { command = [&] { return cupola::predict(campaign, run_folder); }; });
 
   CLI::App* run = with_campaign(app.add_subcommand("run", "Run a campaign, or go on with its run folder"));
   run->add_option("--run-dir", run_folder, "The run folder; without it runs/<campaign>");
@@ -131,6 +140,11 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(0, 65535));
   serve->callback([&] { command = [&] { return cupola::serve(folder, host, port); }; });
+
+  CLI::App* verify =
+      with_folder(app.add_subcommand("verify", "Compare every byte of a run with its hashes; changes nothing"));
+  with_json(verify);
+  verify->callback([&] { command = [&] { return cupola::verify(folder, as_json); }; });
 
   CLI::App* report =
       with_folder(app.add_subcommand("report", "Make the report of a run anew, at whatever point it stands"));

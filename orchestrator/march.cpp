@@ -1,13 +1,16 @@
 #include "orchestrator/march.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
 #include "orchestrator/convergence.hpp"
 #include "orchestrator/episode_judgement.hpp"
+#include "orchestrator/prediction.hpp"
 #include "orchestrator/stage_runner.hpp"
 
 namespace cupola {
@@ -16,18 +19,28 @@ namespace {
 using nlohmann::json;
 using Inputs = std::map<std::string, std::filesystem::path>;
 
-Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const Campaign& campaign) {
+/// Where a stage gets the temperatures from: the tracer stage before, or a prediction that the run begins with.
+void add_temperatures(Inputs& inputs, const std::vector<EpisodeFolders>& before, const RunFolder& run) {
+  if (!run.campaign().heat) return;
+  if (!before.empty()) {
+    inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  } else if (const auto guess = usable_prediction(run.path())) {
+    inputs["solids_temperature"] = *guess;
+  }
+}
+
+Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const RunFolder& run) {
   Inputs inputs;
+  add_temperatures(inputs, before, run);
   if (before.empty()) return inputs;
   inputs["packing"] = before.back().dem / "result.hdf";
-  if (campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
   return inputs;
 }
 
 Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::filesystem::path& dem,
-                     const Campaign& campaign) {
+                     const RunFolder& run) {
   Inputs inputs{{"granular", dem / "result.hdf"}};
-  if (!before.empty() && campaign.heat) inputs["solids_temperature"] = before.back().tracer / "result.hdf";
+  add_temperatures(inputs, before, run);
   return inputs;
 }
 
@@ -77,12 +90,12 @@ class March {
   /// @return why it has not been finished; none: it has
   std::optional<std::string> finish_episode(int episode) {
     StagePlace place{episode, limit_, TaskKind::dem, 1};
-    const auto dem = stages_.finish(place, dem_inputs(finished_, run_.campaign()));
+    const auto dem = stages_.finish(place, dem_inputs(finished_, run_));
     if (!dem) return on_request;
     after_stage_();
     if (enough_for_once()) return after_one_stage;
     place.kind = TaskKind::tracer;
-    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_.campaign()));
+    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_));
     if (!tracer) return on_request;
     finished_.push_back({*dem, *tracer});
     return std::nullopt;
@@ -107,7 +120,7 @@ class March {
   }
 
   ExitCode stop(const std::string& why) {
-    run_.journal().append("orchestrator-stopped", {{"why", why}});
+    run_.journal().append("orchestrator-stopped", {{"why", why}, {"own", own_share()}});
     after_stage_();
     view_.say(fmt::format("stopped {}. `cupola resume {}` goes on.", why, run_.path().string()));
     return ExitCode::stopped;
@@ -115,7 +128,8 @@ class March {
 
   ExitCode end(Verdict verdict, int episode) {
     const ExitCode code = verdict == Verdict::converged ? ExitCode::done : ExitCode::stopped;
-    const json content = {{"outcome", to_text(verdict)}, {"episodes", episode}, {"status", static_cast<int>(code)}};
+    const json content = {
+        {"outcome", to_text(verdict)}, {"episodes", episode}, {"status", static_cast<int>(code)}, {"own", own_share()}};
     const json& last = run_.journal().records().back();
     const bool known = last.value("event", "") == "campaign-ended" && last.value("episodes", 0) == episode;
     if (!known) run_.journal().append("campaign-ended", content);
@@ -128,6 +142,20 @@ class March {
     return code;
   }
 
+  /// What this orchestrator took for itself: wall time without that of the stages, and processor time.
+  json own_share() const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begun_;
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return {{"wall_seconds", (wall - stages_.waited()).count()},
+            {"cpu_seconds", seconds(usage.ru_utime) + seconds(usage.ru_stime)},
+            {"of_wall_seconds", wall.count()}};
+  }
+
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   RunFolder& run_;
   StageRunner stages_;
   ProgressView& view_;

@@ -13,6 +13,8 @@ namespace cupola {
 /// What a user may ask of one `cupola run` or `cupola resume`.
 struct MarchOptions {
   std::optional<int> at_most;        ///< episodes, instead of the campaign's limit
+  std::optional<int> ranks;          ///< of the stages from now on, instead of the campaign's
+  bool accept_versions = false;      ///< goes on with other versions of program and libraries
   std::optional<int> until_episode;  ///< leaves after this one; the campaign is not over then
   bool one_stage = false;            ///< leaves after the next stage that it has brought to its end
 };

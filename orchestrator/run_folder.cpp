@@ -32,7 +32,7 @@ bool can_become_run(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::string name = entry.path().filename().string();
     if (name.ends_with(".part")) name.resize(name.size() - 5);
-    if (!own.contains(name) && name != information_name) return false;
+    if (!own.contains(name) && name != information_name && !name.starts_with("lock.")) return false;
   }
   return true;
 }
@@ -57,7 +57,7 @@ std::string frozen_text(const fs::path& folder, const std::string& name, const s
 }
 
 json read_information(const fs::path& folder) {
-  json information = read_json(folder / information_name);
+  json information = read_sealed_json(folder / information_name);
   for (const char* key : {"campaign_hash", "resolved_hash"})
     if (!information.contains(key) || !information[key].is_string())
       throw Failure(ExitCode::wrong_input, fmt::format("{}: {} is missing", (folder / information_name).string(), key));
@@ -80,18 +80,18 @@ void check_beginning(const fs::path& folder, const std::vector<json>& journal, c
                   fmt::format("{}: the journal of another campaign", (folder / journal_name).string()));
 }
 
-void freeze(const fs::path& folder, const std::string& text, const Campaign& campaign) {
+void freeze(const fs::path& folder, const std::string& text, const Campaign& campaign, const json& versions) {
   const std::string resolved = resolved_yaml(campaign);
   write_text_atomically(folder / campaign_name, text);
   write_text_atomically(folder / resolved_name, resolved);
   // Last: its presence says that the folder is whole.
-  write_json_atomically(folder / information_name, {{"schema", 1},
-                                                    {"campaign", campaign.name},
-                                                    {"campaign_hash", hash_text(text)},
-                                                    {"resolved_hash", hash_text(resolved)},
-                                                    {"versions", program_versions()},
-                                                    {"host", host_name()},
-                                                    {"started", utc_now()}});
+  write_sealed_json(folder / information_name, {{"schema", 1},
+                                                {"campaign", campaign.name},
+                                                {"campaign_hash", hash_text(text)},
+                                                {"resolved_hash", hash_text(resolved)},
+                                                {"versions", versions},
+                                                {"host", host_name()},
+                                                {"started", utc_now()}});
 }
 
 void require_same(const fs::path& folder, const fs::path& campaign_file, const Campaign& campaign) {
@@ -140,16 +140,17 @@ RunRecord read_run(const fs::path& folder) {
 RunFolder::RunFolder(const fs::path& folder) : path_(fs::canonical(folder)), lock_(path_) {}
 
 void RunFolder::load() {
-  const json information = read_information(path_);
-  campaign_ = frozen_campaign(path_, information);
-  campaign_hash_ = information["campaign_hash"].get<std::string>();
+  information_ = read_information(path_);
+  campaign_ = frozen_campaign(path_, information_);
+  campaign_hash_ = information_["campaign_hash"].get<std::string>();
   journal_ = std::make_unique<Journal>(path_ / journal_name);
   check_beginning(path_, journal_->records(), campaign_hash_);
   if (journal_->records().empty())
     journal_->append("campaign-started", {{"campaign", campaign_.name}, {"campaign_hash", campaign_hash_}});
 }
 
-std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file, const fs::path& folder) {
+std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file, const fs::path& folder,
+                                                   const json& versions) {
   const std::string text = read_text(campaign_file);
   const ReadCampaign read = read_campaign_text(text, campaign_file.string());
   if (!read.ok()) throw Failure(ExitCode::wrong_input, to_text(read.errors));
@@ -163,7 +164,7 @@ std::unique_ptr<RunFolder> RunFolder::for_campaign(const fs::path& campaign_file
   if (is_run(folder))
     require_same(folder, campaign_file, read.campaign);
   else
-    freeze(folder, text, read.campaign);
+    freeze(folder, text, read.campaign, versions);
   run->load();
   return run;
 }

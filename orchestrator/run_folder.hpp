@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "orchestrator/built_with.hpp"
 #include "orchestrator/journal.hpp"
 #include "schemas/campaign.hpp"
 #include "schemas/files.hpp"
@@ -33,16 +34,19 @@ std::filesystem::path task_folder(const std::filesystem::path& run, int episode,
 class RunFolder {
  public:
   /// Makes the folder for a campaign file, or opens it where it is there and belongs to the same campaign.
+  /// @param versions of program and libraries, noted down in a new folder
   /// @throws Failure wrong_input: the campaign is wrong, the folder belongs to another campaign (the keys are named) or
   /// holds something else; held: another orchestrator works there; input_output
   static std::unique_ptr<RunFolder> for_campaign(const std::filesystem::path& campaign_file,
-                                                 const std::filesystem::path& folder);
+                                                 const std::filesystem::path& folder,
+                                                 const nlohmann::json& versions = program_versions());
   /// Opens a folder that is there. @throws Failure as above
   static std::unique_ptr<RunFolder> open(const std::filesystem::path& folder);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const Campaign& campaign() const { return campaign_; }
   [[nodiscard]] const std::string& campaign_hash() const { return campaign_hash_; }
+  [[nodiscard]] const nlohmann::json& information() const { return information_; }  ///< `run.json`
   [[nodiscard]] Journal& journal() { return *journal_; }
   [[nodiscard]] const Journal& journal() const { return *journal_; }
 
@@ -52,6 +56,7 @@ class RunFolder {
 
   std::filesystem::path path_;
   FolderLock lock_;
+  nlohmann::json information_;
   Campaign campaign_;
   std::string campaign_hash_;
   std::unique_ptr<Journal> journal_;

@@ -29,7 +29,9 @@ int physical_cores() {
 
 }  // namespace
 
-std::string stage_name(TaskKind kind) { return kind == TaskKind::dem ? "dem" : "tracer"; }
+std::string stage_name(TaskKind kind) {
+  return kind == TaskKind::dem ? "dem" : kind == TaskKind::tracer ? "tracer" : "predict";
+}
 
 StageLauncher::StageLauncher(std::filesystem::path programs) : programs_(std::move(programs)) {
   for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer})
@@ -45,7 +47,7 @@ std::filesystem::path StageLauncher::own_folder() {
 }
 
 std::filesystem::path StageLauncher::program(TaskKind kind) const {
-  return programs_ / fmt::format("cupola-{}", stage_name(kind));
+  return programs_ / (kind == TaskKind::dem ? "cupola-dem" : "cupola-tracer");
 }
 
 Command StageLauncher::prepare(TaskKind kind, const std::filesystem::path& task_folder) const {

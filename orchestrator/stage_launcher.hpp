@@ -7,7 +7,7 @@
 
 namespace cupola {
 
-/// `dem` or `tracer`: the folder of a stage in an episode, and the end of its program's name.
+/// `dem`, `tracer` or `predict`: the folder of a stage in an episode.
 std::string stage_name(TaskKind kind);
 
 /// How stages are started on this machine: `cupola-dem` and `cupola-tracer` from the folder of our own program, with
@@ -30,9 +30,10 @@ class StageLauncher {
   /// Where the programs are.
   [[nodiscard]] const std::filesystem::path& folder() const { return programs_; }
 
- private:
+  /// The stage's program.
   [[nodiscard]] std::filesystem::path program(TaskKind kind) const;
 
+ private:
   std::filesystem::path programs_;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,10 +19,12 @@ namespace cupola {
 /// - A finished stage is never run again; its hashes are checked.
 /// - One that was interrupted goes on in its folder, from its checkpoint.
 /// - One that still runs without an orchestrator is waited for.
-/// - One whose numbers went bad (70) is tried again once, in a new folder and with the changed campaign keys its
-/// message
-///   asks for. Without such advice it would end the same, so it is not repeated; `cupola resume` tries once more.
-/// - One that ends without a word (a crash, a killed rank) is started again once.
+/// - One whose numbers went bad (70) is tried again once, in a new folder, from its last checkpoint and with the
+/// changed
+///   campaign keys its message asks for. Without such advice it would end the same, so it is not repeated; `cupola
+///   resume` tries once more.
+/// - One that ends without a word (a crash, a killed rank) is started again, after a wait that grows, until it has died
+///   four times without a new checkpoint in between.
 class StageRunner {
  public:
   /// All are kept by reference.
@@ -34,11 +37,15 @@ class StageRunner {
   std::optional<std::filesystem::path> finish(StagePlace place,
                                               const std::map<std::string, std::filesystem::path>& inputs);
 
+  /// Wall time spent waiting for stages and their preparation so far: the rest is the orchestrator's own.
+  [[nodiscard]] std::chrono::duration<double> waited() const { return waited_; }
+
  private:
   struct Patience {
     int starts = 0;       ///< of the stage by this orchestrator
     int retries = 0;      ///< attempts begun after one that went bad
-    int deaths = 0;       ///< ends without a word
+    int deaths = 0;       ///< ends without a word since the checkpoint last got on
+    long step_lived = 0;  ///< step of the checkpoint at the last death
     int idle_jobs = 0;    ///< jobs on end that the cluster cut off before they came any further
     long last_step = -1;  ///< of the last job that was cut off
   };
@@ -49,13 +56,24 @@ class StageRunner {
   /// Prepares and runs the attempt. @return false where a stop was asked for or the stage was stopped
   bool run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,
                    Patience& patience);
-  /// @return exit status, @param stoppable whether a request to stop is passed on
-  int run_to_end(const StagePlace& place, const Command& command, const std::string& event, bool stoppable);
+  /// Sees that the task is there, and the one the journal knows.
+  void make_task(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs);
+  /// Sees that its OpenFOAM case is prepared. @return exit status of the preparation; 0 where there was nothing to do
+  int make_ready(const StagePlace& place);
+  /// @param content of the event, @param stoppable whether a request to stop is passed on
+  /// @return exit status
+  int run_to_end(const StagePlace& place, Command command, const std::string& event, nlohmann::json content,
+                 bool stoppable);
+  /// Waits before a stage that died is started again. @throws Failure where it dies again and again
+  void be_patient(const StagePlace& place, int status, Patience& patience);
   /// @return false where it was stopped
   bool judge_end(const StagePlace& place, int status, Patience& patience);
   /// The same for a stage that was a job of Slurm.
   bool judge_job(const StagePlace& place, const JobEnd& end, Patience& patience);
-  [[nodiscard]] Campaign campaign_with_advice() const;
+  /// `dem stage of episode 2`
+  [[nodiscard]] static std::string name_of(const StagePlace& place);
+  [[nodiscard]] Campaign campaign_in_force() const;
+  [[nodiscard]] int ranks() const;
   [[nodiscard]] nlohmann::json about(const StagePlace& place) const;
   [[nodiscard]] std::filesystem::path folder(const StagePlace& place) const;
 
@@ -64,6 +82,7 @@ class StageRunner {
   SignalWatch& signals_;
   ProgressView& view_;
   SlurmStage jobs_;
+  std::chrono::duration<double> waited_{0};
 };
 
 }  // namespace cupola

@@ -15,14 +15,6 @@ int latest_attempt(const std::filesystem::path& run, int episode, TaskKind kind)
   return attempt;
 }
 
-/// The last record of an event about an attempt.
-const json* last_record(const std::vector<json>& journal, const std::string& event, int episode, TaskKind kind,
-                        int attempt) {
-  for (auto record = journal.rbegin(); record != journal.rend(); ++record)
-    if (record->value("event", "") == event && is_about(*record, episode, kind, attempt)) return &*record;
-  return nullptr;
-}
-
 std::optional<ProcessIdentity> started_process(const std::vector<json>& journal, int episode, TaskKind kind,
                                                int attempt) {
   const json* record = last_record(journal, "stage-started", episode, kind, attempt);
@@ -64,6 +56,27 @@ StageState stage_state(const std::filesystem::path& run, const std::vector<json>
     state.failure = std::move(failure);
   }
   return state;
+}
+
+const json* last_record(const std::vector<json>& journal, const std::string& event, int episode, TaskKind kind,
+                        int attempt) {
+  for (auto record = journal.rbegin(); record != journal.rend(); ++record)
+    if (record->value("event", "") == event && is_about(*record, episode, kind, attempt)) return &*record;
+  return nullptr;
+}
+
+int ranks_in_force(const std::vector<json>& journal, int of_campaign) {
+  int ranks = of_campaign;
+  for (const json& record : journal)
+    if (record.value("event", "") == "ranks-changed") ranks = record.value("ranks", ranks);
+  return ranks;
+}
+
+double wall_seconds_of_stage(const std::filesystem::path& run, int episode, TaskKind kind) {
+  double sum = 0;
+  for (int attempt = 1; attempt <= latest_attempt(run, episode, kind); ++attempt)
+    if (const auto progress = read_progress(task_folder(run, episode, kind, attempt))) sum += progress->wall_seconds;
+  return sum;
 }
 
 std::vector<std::pair<std::string, std::string>> advice_taken(const std::vector<json>& journal) {

@@ -34,6 +34,16 @@ StageState stage_state(const std::filesystem::path& run, const std::vector<nlohm
 /// Whether a journal line is about this attempt of this stage.
 bool is_about(const nlohmann::json& record, int episode, TaskKind kind, int attempt);
 
+/// The last record of an event about an attempt; null where there is none.
+const nlohmann::json* last_record(const std::vector<nlohmann::json>& journal, const std::string& event, int episode,
+                                  TaskKind kind, int attempt);
+
+/// Ranks of the stages that start now: those of the last `ranks-changed`, else the campaign's.
+int ranks_in_force(const std::vector<nlohmann::json>& journal, int of_campaign);
+
+/// Wall time of a stage over all its attempts, s, as their progress says it.
+double wall_seconds_of_stage(const std::filesystem::path& run, int episode, TaskKind kind);
+
 /// Changes of campaign keys that retries took over from failed attempts, oldest first, with their values.
 std::vector<std::pair<std::string, std::string>> advice_taken(const std::vector<nlohmann::json>& journal);
 

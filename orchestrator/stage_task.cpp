@@ -57,15 +57,21 @@ Task stage_task(TaskKind kind, int episode, const Campaign& campaign, const std:
   return task;
 }
 
-void ensure_task(const std::filesystem::path& folder, const Task& task) {
+void ensure_task(const std::filesystem::path& folder, const Task& task, const std::string& known_hash) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw Failure(ExitCode::input_output, fmt::format("{}: cannot be made: {}.", folder.string(), error.message()));
-  if (std::filesystem::exists(folder / "task.yaml"))
-    require_same(folder, read_task(folder), task);
-  else
-    write_task(folder, task);
+  const std::filesystem::path file = folder / "task.yaml";
+  if (!known_hash.empty() && (!std::filesystem::exists(file) || hash_file(file) != known_hash))
+    throw Failure(
+        ExitCode::input_output,
+        fmt::format("{}: not the task that was written: it was damaged, changed or removed. Put it back from a "
+                    "copy, or move {} away and resume: the stage then begins again.",
+                    file.string(), folder.string()))
+        .at("file", file.string());
+  if (std::filesystem::exists(file)) require_same(folder, read_task(folder), task);
+  if (known_hash.empty()) write_task(folder, task);
 }
 
 }  // namespace cupola

@@ -17,7 +17,10 @@ Task stage_task(TaskKind kind, int episode, const Campaign& campaign, const std:
                 const std::map<std::string, std::filesystem::path>& inputs, const std::filesystem::path& folder);
 
 /// Makes the task folder with its `task.yaml`; where that is there already, checks that it says the same.
-/// @throws Failure wrong_input: the folder's task belongs to another campaign or has other inputs
-void ensure_task(const std::filesystem::path& folder, const Task& task);
+/// @param known_hash of the file, where the journal knows it: then it must be that to the last byte. Where it does not,
+/// nothing has been done with the file yet and it is written anew.
+/// @throws Failure wrong_input: the folder's task belongs to another campaign or has other inputs; input_output: it is
+/// damaged
+void ensure_task(const std::filesystem::path& folder, const Task& task, const std::string& known_hash = "");
 
 }  // namespace cupola

@@ -134,12 +134,19 @@ struct Contacts {
   double youngs_modulus = 5e7;       ///< Pa (hertz)
   double wall_youngs_modulus = 5e6;  ///< Pa (hertz)
   double poisson_ratio = 0.25;
-  double stiffness = 0;  ///< N/m of the grain (linear-spring)
+  double stiffness = 0;               ///< N/m of the grain (linear-spring)
+  double tangential_ratio = 2.0 / 7;  ///< tangential over normal stiffness (linear-spring)
   std::map<std::string, ContactPair>
       pairs;  ///< "coke-coke", "coke-ore", "coke-wall", …; species names in the order of `species`
 };
 
-enum class DragLaw { ergun, gidaspow, beetstra };
+enum class DragLaw { ergun, wen_yu, gidaspow, di_felice, koch_hill, beetstra, emms };
+
+/// `filtered_drag`: what coarse parcels and coarse cells do not resolve, a factor on the drag law.
+struct FilteredDrag {
+  double parcel_coefficient = 0;  ///< k of the parcel correction exp(-k (n - 1)), n the coarse graining
+  bool grid = true;               ///< correction for clusters smaller than a cell
+};
 
 /// Present only where heat is on.
 struct Heat {
@@ -183,14 +190,24 @@ struct Charging {
 };
 
 struct Raceway {
+  enum class Removal { rate, keep_void };
   std::array<Vector3, 2> box{};  ///< m, lower and upper corner
   double void_fraction = 0.75;   ///< `void`: least void fraction the gas sees in the box
-  double dem_removal_rate = 0;   ///< kg/s in the DEM stage
+  double dem_removal_rate = 0;   ///< kg/s in the DEM stage; the most that is taken where a void is kept
+  Removal removal = Removal::rate;
+};
+
+/// `dem.limits`: a run that exceeds one of them stops.
+struct DemLimits {
+  double overlap = 0.3;       ///< of two parcels, over the smaller radius
+  double wall_overlap = 0.6;  ///< of a parcel and a wall, over its radius
+  double creep = 0.25;        ///< sinking of the bed at rest over its descent in the DEM stage
 };
 
 struct DemSettings {
   enum class GasModel { none, quasi_steady };
   enum class Stop { fields_converged, duration };
+  enum class VoidFraction { divided, smoothed };
   std::string engine = "liggghts";
   GasModel gas = GasModel::quasi_steady;
   Stop stop = Stop::duration;       ///< `stop.when`
@@ -201,6 +218,9 @@ struct DemSettings {
   std::optional<double> time_step;  ///< s; absent: auto
   double rayleigh_fraction = 0.05;  ///< of the Rayleigh time (hertz) or collision time (linear-spring), for `auto`
   double block = 0.05;              ///< s, coupling block: gas, removal, charging and checkpoints happen between blocks
+  VoidFraction void_fraction = VoidFraction::divided;  ///< how parcels are spread over cells
+  double smoothing_length = 0;                         ///< m, width of the smoothing (smoothed)
+  DemLimits limits;
 };
 
 /// Where tracers are not displaced (`tracer.displacement_excludes`).
@@ -272,6 +292,7 @@ struct Campaign {
   std::vector<Species> species;  ///< in the order of the file
   Contacts contacts;
   DragLaw drag = DragLaw::gidaspow;
+  std::optional<FilteredDrag> filtered_drag;
   std::optional<Heat> heat;
   Initial initial;
   Charging charging;

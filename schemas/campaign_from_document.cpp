@@ -264,6 +264,7 @@ Contacts read_contacts(const Section& section, const std::vector<Species>& speci
   section.read("wall_youngs_modulus", contacts.wall_youngs_modulus);
   section.read("poisson_ratio", contacts.poisson_ratio);
   section.read("stiffness", contacts.stiffness);
+  section.read("tangential_ratio", contacts.tangential_ratio);
   for (const auto& [key, value] : section.section("pairs").members().items()) {
     const Section item(&value);
     ContactPair pair;
@@ -312,6 +313,7 @@ Raceway read_raceway(const Section& section) {
   raceway.box = read_box(section.section("box"));
   section.read("void", raceway.void_fraction);
   section.need("dem_removal_rate", raceway.dem_removal_rate);
+  section.read("removal", raceway.removal, words::raceway_removal);
   return raceway;
 }
 
@@ -328,6 +330,12 @@ DemSettings read_dem(const Section& section, bool gas) {
   section.read("time_step", dem.time_step);
   section.read("rayleigh_fraction", dem.rayleigh_fraction);
   section.read("block", dem.block);
+  section.read("void_fraction", dem.void_fraction, words::void_fraction);
+  section.need("smoothing_length", dem.smoothing_length);
+  const auto limits = section.section("limits");
+  limits.read("overlap", dem.limits.overlap);
+  limits.read("wall_overlap", dem.limits.wall_overlap);
+  limits.read("creep", dem.limits.creep);
   return dem;
 }
 
@@ -407,6 +415,11 @@ void derive(Campaign& campaign) {
   for (auto& species : campaign.species) {
     if (std::isnan(species.none_below)) species.none_below = lowest;
   }
+  auto& smoothing = campaign.dem.smoothing_length;
+  if (std::isnan(smoothing)) {
+    smoothing = campaign.species.empty() ? unknown : 0;
+    for (const auto& species : campaign.species) smoothing = std::max(smoothing, species.parcel_diameter());
+  }
   auto& hopper = campaign.charging.hopper_height;
   if (std::isnan(hopper)) hopper = thickest_layer(campaign) + 0.5;
 }
@@ -423,6 +436,11 @@ Campaign campaign_from_document(const YamlDocument& document) {
   }
   campaign.contacts = read_contacts(root.section("contacts"), campaign.species);
   root.read("drag", campaign.drag, words::drag);
+  if (const auto filtered = root.section("filtered_drag"); filtered.present()) {
+    campaign.filtered_drag.emplace();
+    filtered.read("parcel_coefficient", campaign.filtered_drag->parcel_coefficient);
+    filtered.read("grid", campaign.filtered_drag->grid);
+  }
   if (const auto heat = root.section("heat"); heat.present()) {
     campaign.heat.emplace();
     heat.read("nusselt_factor", campaign.heat->nusselt_factor);

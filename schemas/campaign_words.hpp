@@ -19,8 +19,17 @@ inline constexpr Table<Contacts::Model, 2> contact_model{
     {{Contacts::Model::hertz, "hertz"}, {Contacts::Model::linear_spring, "linear-spring"}}};
 inline constexpr Table<Contacts::Rolling, 3> rolling_model{
     {{Contacts::Rolling::none, "none"}, {Contacts::Rolling::cdt, "cdt"}, {Contacts::Rolling::epsd2, "epsd2"}}};
-inline constexpr Table<DragLaw, 3> drag{
-    {{DragLaw::ergun, "ergun"}, {DragLaw::gidaspow, "gidaspow"}, {DragLaw::beetstra, "beetstra"}}};
+inline constexpr Table<DragLaw, 7> drag{{{DragLaw::ergun, "ergun"},
+                                         {DragLaw::wen_yu, "wen-yu"},
+                                         {DragLaw::gidaspow, "gidaspow"},
+                                         {DragLaw::di_felice, "di-felice"},
+                                         {DragLaw::koch_hill, "koch-hill"},
+                                         {DragLaw::beetstra, "beetstra"},
+                                         {DragLaw::emms, "emms"}}};
+inline constexpr Table<Raceway::Removal, 2> raceway_removal{
+    {{Raceway::Removal::rate, "rate"}, {Raceway::Removal::keep_void, "keep-void"}}};
+inline constexpr Table<DemSettings::VoidFraction, 2> void_fraction{
+    {{DemSettings::VoidFraction::divided, "divided"}, {DemSettings::VoidFraction::smoothed, "smoothed"}}};
 inline constexpr Table<DemSettings::GasModel, 2> dem_gas{
     {{DemSettings::GasModel::none, "none"}, {DemSettings::GasModel::quasi_steady, "quasi-steady"}}};
 inline constexpr Table<DemSettings::Stop, 2> dem_stop{

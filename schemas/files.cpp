@@ -130,4 +130,41 @@ void write_json_atomically(const std::filesystem::path& file, const nlohmann::js
   write_text_atomically(file, value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
+namespace {
+
+constexpr const char* seal = "hash";
+
+std::string one_line(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string sealed_text(const nlohmann::json& value) {
+  return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+void write_sealed_json(const std::filesystem::path& file, nlohmann::json object) {
+  object.erase(seal);
+  object[seal] = hash_text(one_line(object));
+  write_text_atomically(file, sealed_text(object));
+}
+
+nlohmann::json read_sealed_json(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  nlohmann::json object = nlohmann::json::parse(text, nullptr, false);
+  const auto damaged = [&] {
+    return Failure(ExitCode::input_output,
+                   fmt::format("{}: damaged, or changed after it was written: its content does not fit the hash it "
+                               "carries. Put it back from a copy.",
+                               file.string()))
+        .at("file", file.string());
+  };
+  if (!object.is_object() || !object.contains(seal) || sealed_text(object) != text) throw damaged();
+  const nlohmann::json hash = object[seal];
+  object.erase(seal);
+  if (hash != hash_text(one_line(object))) throw damaged();
+  return object;
+}
+
 }  // namespace cupola

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <map>
 
 #include "schemas/files.hpp"
@@ -43,35 +44,52 @@ void write_manifest(const std::filesystem::path& folder) {
       files[relative.string()] = {{"size", entry->file_size()}, {"hash", hash_file(entry->path())}};
     }
   }
-  write_json_atomically(folder / manifest_name, {{"schema", 1}, {"files", files}});
+  write_sealed_json(folder / manifest_name, {{"schema", 1}, {"files", files}});
 }
 
 bool has_manifest(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder / manifest_name);
 }
 
-void verify_manifest(const std::filesystem::path& folder) {
-  const nlohmann::json manifest = read_json(folder / manifest_name);
+namespace {
+
+/// Hands over what is wrong with the files, in the order of the manifest.
+void check_manifest(const std::filesystem::path& folder, const std::function<void(const Failure&)>& take) {
+  const nlohmann::json manifest = read_sealed_json(folder / manifest_name);
   try {
     for (const auto& [name, expected] : manifest.at("files").items()) {
       const std::filesystem::path file = folder / name;
       if (!std::filesystem::is_regular_file(file)) {
-        throw Failure(ExitCode::input_output,
-                      fmt::format("{}: missing, although {} lists it; remove its task folder and run again",
-                                  file.string(), manifest_name))
-            .at("file", file.string());
-      }
-      if (std::filesystem::file_size(file) != expected.at("size").get<std::uintmax_t>()) {
-        throw differs(file, "another size");
-      }
-      if (hash_file(file) != expected.at("hash").get<std::string>()) {
-        throw differs(file, "other content");
+        take(Failure(ExitCode::input_output,
+                     fmt::format("{}: missing, although {} lists it; remove its task folder and run again",
+                                 file.string(), manifest_name))
+                 .at("file", file.string()));
+      } else if (std::filesystem::file_size(file) != expected.at("size").get<std::uintmax_t>()) {
+        take(differs(file, "another size"));
+      } else if (hash_file(file) != expected.at("hash").get<std::string>()) {
+        take(differs(file, "other content"));
       }
     }
   } catch (const nlohmann::json::exception& error) {
     throw Failure(ExitCode::input_output,
                   fmt::format("{}: not a manifest: {}", (folder / manifest_name).string(), error.what()));
   }
+}
+
+}  // namespace
+
+void verify_manifest(const std::filesystem::path& folder) {
+  check_manifest(folder, [](const Failure& failure) { throw failure; });
+}
+
+std::vector<std::string> manifest_problems(const std::filesystem::path& folder) {
+  std::vector<std::string> problems;
+  try {
+    check_manifest(folder, [&](const Failure& failure) { problems.emplace_back(failure.what()); });
+  } catch (const Failure& failure) {
+    problems.emplace_back(failure.what());
+  }
+  return problems;
 }
 
 }  // namespace cupola

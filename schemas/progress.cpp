@@ -45,17 +45,19 @@ std::optional<Progress> read_progress(const std::filesystem::path& folder) {
 }
 
 void write_failure(const std::filesystem::path& folder, const Failure& failure) {
-  write_json_atomically(folder / "failure.json", {{"code", static_cast<int>(failure.code())},
-                                                  {"sentence", failure.what()},
-                                                  {"where", failure.where()},
-                                                  {"advice", failure.advice()}});
+  write_sealed_json(folder / "failure.json", {{"code", static_cast<int>(failure.code())},
+                                              {"sentence", failure.what()},
+                                              {"where", failure.where()},
+                                              {"advice", failure.advice()}});
 }
 
 std::optional<nlohmann::json> read_failure(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / "failure.json")) {
+  const std::filesystem::path file = folder / "failure.json";
+  if (!std::filesystem::exists(file)) {
     return std::nullopt;
   }
-  return read_json(folder / "failure.json");
+  nlohmann::json failure = read_json(file);
+  return failure.contains("hash") ? read_sealed_json(file) : failure;
 }
 
 }  // namespace cupola

@@ -103,6 +103,7 @@ Json contacts_json(const Contacts& contacts) {
             {"wall_youngs_modulus", contacts.wall_youngs_modulus},
             {"poisson_ratio", contacts.poisson_ratio}};
   if (contacts.stiffness > 0) json["stiffness"] = contacts.stiffness;
+  if (contacts.model == Contacts::Model::linear_spring) json["tangential_ratio"] = contacts.tangential_ratio;
   for (const auto& [name, pair] : contacts.pairs) {
     json["pairs"][name] = {{"restitution", pair.restitution}, {"friction", pair.friction}, {"rolling", pair.rolling}};
   }
@@ -128,7 +129,8 @@ Json raceways_json(const std::vector<Raceway>& raceways) {
   for (const auto& raceway : raceways) {
     json.push_back({{"box", box_json(raceway.box)},
                     {"void", raceway.void_fraction},
-                    {"dem_removal_rate", raceway.dem_removal_rate}});
+                    {"dem_removal_rate", raceway.dem_removal_rate},
+                    {"removal", word(words::raceway_removal, raceway.removal)}});
   }
   return json;
 }
@@ -142,7 +144,11 @@ Json dem_json(const DemSettings& dem) {
           {"standard_error", dem.standard_error},
           {"time_step", or_auto(dem.time_step)},
           {"rayleigh_fraction", dem.rayleigh_fraction},
-          {"block", dem.block}};
+          {"block", dem.block},
+          {"void_fraction", word(words::void_fraction, dem.void_fraction)},
+          {"smoothing_length", dem.smoothing_length},
+          {"limits",
+           {{"overlap", dem.limits.overlap}, {"wall_overlap", dem.limits.wall_overlap}, {"creep", dem.limits.creep}}}};
 }
 
 Json tracer_json(const TracerSettings& tracer) {
@@ -208,6 +214,10 @@ Json resolved_json(const Campaign& campaign) {
                     {"bed_conduction", word(words::bed_conduction, heat->bed_conduction)},
                     {"emissivity", heat->emissivity},
                     {"intragrain_resistance", heat->intragrain_resistance}};
+  }
+  if (campaign.filtered_drag) {
+    json["filtered_drag"] = {{"parcel_coefficient", campaign.filtered_drag->parcel_coefficient},
+                             {"grid", campaign.filtered_drag->grid}};
   }
   json["initial"] = initial_json(campaign.initial);
   const auto& charging = campaign.charging;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "schemas/campaign_from_document.hpp"
 #include "schemas/failure.hpp"
 #include "schemas/files.hpp"
@@ -14,6 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// In the order of TaskKind.
+constexpr std::array<const char*, 3> kind_names = {"dem", "tracer", "predict"};
 constexpr const char* task_file = "task.yaml";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& sentence) {
@@ -66,18 +71,22 @@ TaskInput read_input(const std::filesystem::path& folder, const Members& members
 
 }  // namespace
 
-void write_task(const std::filesystem::path& folder, const Task& task) {
+std::string task_text(const Task& task) {
   Json inputs = Json::object();
   for (const auto& [name, input] : task.inputs) inputs[name] = {{"file", input.file.string()}, {"hash", input.hash}};
   const Json json{{"schema", file_schema_version},
-                  {"kind", task.kind == TaskKind::dem ? "dem" : "tracer"},
+                  {"kind", kind_names.at(static_cast<std::size_t>(task.kind))},
                   {"episode", task.episode},
                   {"campaign_hash", task.campaign_hash},
                   {"program_version", task.program_version},
                   {"random_seed", task.random_seed},
                   {"inputs", inputs},
                   {"campaign", resolved_json(task.campaign)}};
-  write_text_atomically(folder / task_file, yaml_text(json));
+  return yaml_text(json);
+}
+
+void write_task(const std::filesystem::path& folder, const Task& task) {
+  write_text_atomically(folder / task_file, task_text(task));
 }
 
 Task read_task(const std::filesystem::path& folder) {
@@ -100,8 +109,9 @@ Task read_task(const std::filesystem::path& folder) {
   }
   Task task;
   const auto kind = members.text("kind");
-  if (kind != "dem" && kind != "tracer") refuse(file, fmt::format("`kind` must be dem or tracer, but is `{}`", kind));
-  task.kind = kind == "dem" ? TaskKind::dem : TaskKind::tracer;
+  const auto known = std::find(kind_names.begin(), kind_names.end(), kind);
+  if (known == kind_names.end()) refuse(file, fmt::format("`kind` must be dem, tracer or predict, but is `{}`", kind));
+  task.kind = static_cast<TaskKind>(known - kind_names.begin());
   task.episode = static_cast<int>(members.count("episode"));
   task.campaign_hash = members.text("campaign_hash");
   task.program_version = members.text("program_version");

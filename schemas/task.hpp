@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-enum class TaskKind { dem, tracer };
+enum class TaskKind { dem, tracer, predict };
 
 /// A file a task reads, with the content hash it must have.
 struct TaskInput {
@@ -22,6 +22,9 @@ struct TaskInput {
 ///           episode before; absent in the first: the guessed cohesive zone of the campaign counts)
 ///   tracer: `granular` (DEM result of this episode), `solids_temperature` (tracer result of the episode before, or
 ///   absent)
+///   predict: `granular` (the last DEM result) and `solids_temperature` (what that one softened by, and the first
+///   guess),
+///           or neither
 struct Task {
   TaskKind kind = TaskKind::dem;
   int episode = 1;            ///< from 1
@@ -31,6 +34,9 @@ struct Task {
   std::map<std::string, TaskInput> inputs;
   Campaign campaign;  ///< resolved
 };
+
+/// The text of `task.yaml`.
+std::string task_text(const Task& task);
 
 /// Writes `task.yaml` atomically into the folder. @throws Failure input_output
 void write_task(const std::filesystem::path& folder, const Task& task);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -62,6 +63,13 @@ void BatchCharging::begin_batch() {
   state_.next_layer = (state_.next_layer + 1) % static_cast<std::int64_t>(layers.size());
 }
 
+std::array<double, 2> BatchCharging::running_ring() const {
+  const auto layers = static_cast<std::int64_t>(campaign_.charging.layers.size());
+  const auto running = static_cast<std::size_t>((state_.next_layer + layers - 1) % layers);
+  if (const auto ring = campaign_.charging.ring_of(running)) return *ring;
+  return {0, std::max(campaign_.half_width(campaign_.top()), campaign_.half_width(campaign_.charging.stock_line))};
+}
+
 std::vector<Parcel> BatchCharging::pour(const std::vector<Parcel>& parcels, double surface, double time,
                                         std::uint64_t seed, std::int64_t& next_id) {
   const auto still_owed = [&] { return std::accumulate(state_.owed.begin(), state_.owed.end(), std::int64_t{0}); };
@@ -78,13 +86,17 @@ std::vector<Parcel> BatchCharging::pour(const std::vector<Parcel>& parcels, doub
     volume += static_cast<double>(state_.owed[species]) * parcel_mass(campaign_.species[species]) /
               campaign_.species[species].density;
   // No higher than the batch needs: a short fall disturbs the bed least.
-  const double area = 2 * campaign_.half_width(campaign_.charging.stock_line) * campaign_.scene.geometry.depth;
+  const auto [inner, outer] = running_ring();
+  const double width = std::min(outer, campaign_.half_width(campaign_.charging.stock_line)) - inner;
+  const double area = 2 * width * campaign_.scene.geometry.depth;
   const double to = std::min(campaign_.hopper_top(), from + 0.2 + volume / (loose_fraction * area));
   RandomNumbers random(seed, RandomNumbers::Use::charging, static_cast<std::uint64_t>(next_id));
   while (still_owed() > 0) {
     // A mixed batch is poured mixed: the species with the largest number still to come first.
     const auto species = std::max_element(state_.owed.begin(), state_.owed.end()) - state_.owed.begin();
-    const auto choose = [&](double) { return static_cast<int>(species); };
+    const auto choose = [&, inner = inner, outer = outer](double x) {
+      return std::abs(x) < inner || std::abs(x) > outer ? -1 : static_cast<int>(species);
+    };
     const double radius = campaign_.species[static_cast<std::size_t>(species)].parcel_diameter() / 2;
     if (!pouring.place(from + radius, to - radius, next_id, choose, random, 200)) break;
     state_.falling.insert(next_id++);

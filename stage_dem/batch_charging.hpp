@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
@@ -18,7 +19,8 @@ struct ChargingState {
 
 /// Charges batches of fixed mass when the bed's surface is below the stock line.  A batch is a whole number of parcels;
 /// the rest of its mass is carried to the next batch of that species, so that the charged mass is exact over time.  It
-/// is poured from just above the bed into the room below the hopper's top, in as many portions as that takes.
+/// is poured from just above the bed into the room below the hopper's top, over the whole width or its layer's ring, in
+/// as many portions as that takes.
 class BatchCharging {
  public:
   /// @throws Failure wrong_input where a batch's bulk volume (mass/density/0.55) exceeds the free volume above the
@@ -40,6 +42,8 @@ class BatchCharging {
 
  private:
   void begin_batch();
+  /// |x| that the running batch is poured between, m (`charging.rings`).
+  [[nodiscard]] std::array<double, 2> running_ring() const;
 
   const Campaign& campaign_;
   ChargingState state_;

@@ -1,7 +1,9 @@
 #include "stage_dem/bed_watch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "stage_dem/neighbour_grid.hpp"
 #include "stage_dem/parcels.hpp"
@@ -13,7 +15,39 @@ double norm(const Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2
 
 constexpr double fast_speed = 5;
 
+/// Distance of a point in the plane (x >= 0, z) from a side wall's straight piece, m.
+double distance(double x, double z, const std::array<double, 2>& low, const std::array<double, 2>& high) {
+  const double dz = high[0] - low[0];
+  const double dx = high[1] - low[1];
+  const double along = std::clamp(((z - low[0]) * dz + (x - low[1]) * dx) / (dz * dz + dx * dx), 0.0, 1.0);
+  return std::hypot(z - low[0] - along * dz, x - low[1] - along * dx);
+}
+
+/// Distance of a parcel's centre from the nearest wall, m, negative beyond a wall.
+double distance_from_walls(const Campaign& campaign, const Vector3& point) {
+  const auto& geometry = campaign.scene.geometry;
+  const double x = std::abs(point[0]);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < geometry.profile.size(); ++i) {
+    const auto& low = geometry.profile[i];
+    const std::array<double, 2> hopper{campaign.hopper_top(), low[1]};
+    const auto& high = i + 1 < geometry.profile.size() ? geometry.profile[i + 1] : hopper;
+    if (high[0] > low[0]) nearest = std::min(nearest, distance(x, point[2], low, high));
+  }
+  if (x > campaign.half_width(point[2])) nearest = -nearest;
+  nearest = std::min(nearest, point[2] - campaign.bottom());
+  if (geometry.sides == Geometry::Sides::walls) nearest = std::min(nearest, geometry.depth / 2 - std::abs(point[1]));
+  return nearest;
+}
+
 }  // namespace
+
+double largest_wall_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels) {
+  double largest = 0;
+  for (const auto& parcel : parcels)
+    largest = std::max(largest, 1 - distance_from_walls(campaign, parcel.position) / parcel.radius);
+  return largest;
+}
 
 double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator) {
   const double diameter = largest_diameter(campaign);

@@ -12,6 +12,10 @@ namespace cupola {
 /// @param parcels all, the same on every rank
 double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator);
 
+/// Largest overlap of a parcel with the floor, a side wall or (where the sides are walls) front and back, over its
+/// radius.  The walls go on above the mesh as the charging hopper.  Above 1 the centre is beyond the wall.
+double largest_wall_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels);
+
 /// Means over the parcels of the bed (those still falling left out) of the last block's displacement over its seconds.
 struct BedMotion {
   double speed = 0;       ///< m/s, mean of |u|

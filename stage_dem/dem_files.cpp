@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cstdlib>
+#include <algorithm>
 
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
@@ -13,10 +13,7 @@
 namespace cupola {
 namespace {
 
-double checkpoint_interval() {
-  const char* wanted = std::getenv("CUPOLA_CHECKPOINT_SECONDS");
-  return wanted != nullptr ? std::atof(wanted) : 300;
-}
+constexpr double usual_checkpoint_interval = 300;  // s of wall time
 
 }  // namespace
 
@@ -31,6 +28,9 @@ void DemFiles::make_engine(std::vector<std::uint8_t> snapshot) {
 
 bool DemFiles::resume() {
   const auto found = CheckpointFiles(stage_.folder_).latest();
+  // Work that was lost with its process was paid for as well.
+  const auto before = read_progress(stage_.folder_);
+  if (before) stage_.state_.wall_before = before->wall_seconds;
   if (!found) {
     if (stage_.rank_ == 0) cut_history(stage_.folder_, -1);
     return false;
@@ -41,6 +41,7 @@ bool DemFiles::resume() {
   make_engine(stage_.rank_ == 0 ? file.bytes("Engine/snapshot") : std::vector<std::uint8_t>{});
   const auto state = nlohmann::json::parse(file.text("State"));
   state.at("stage").get_to(stage_.state_);
+  if (before) stage_.state_.wall_before = std::max(stage_.state_.wall_before, before->wall_seconds);
   state.at("regrowing").get_to(stage_.regrowing_);
   stage_.builder_.load(state.at("builder"));
   stage_.charging_.load(state.at("charging"));
@@ -130,7 +131,7 @@ void DemFiles::write_checkpoint() {
 
 void DemFiles::write_checkpoint_when_due() {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - stage_.last_checkpoint_;
-  int due = since.count() > checkpoint_interval() ? 1 : 0;
+  int due = since.count() > checkpoint_interval(usual_checkpoint_interval) ? 1 : 0;
   MPI_Bcast(&due, 1, MPI_INT, 0, stage_.communicator_);
   if (due != 0) write_checkpoint();
 }

@@ -4,6 +4,7 @@
 #include "schemas/files.hpp"
 #include "stage_dem/bed_watch.hpp"
 #include "stage_dem/dem_files.hpp"
+#include "stage_dem/dem_limits.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/part_timer.hpp"
 #include "stage_dem/softening.hpp"
@@ -58,8 +59,10 @@ nlohmann::json DemFiles::summary() const {
       {"time_step", stage_.step_.step},
       {"rayleigh_fraction", stage_.step_.fraction()},
       {"largest_overlap", state.largest_overlap},
+      {"largest_wall_overlap", state.largest_wall_overlap},
       {"fast_parcels", state.fast_parcels},
       {"creep_speed", state.creep_speed},
+      {"creep_over_descent", creep_over_descent(campaign, state.creep_speed)},
       {"coke_removal_rate", rate(coke)},
       {"removal_by_raceway", by_raceway},
       {"ore_melted_rate", rate(window.mass(window.melted()))},

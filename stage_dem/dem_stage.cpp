@@ -9,6 +9,7 @@
 #include "stage_dem/bed_surface.hpp"
 #include "stage_dem/bed_watch.hpp"
 #include "stage_dem/dem_files.hpp"
+#include "stage_dem/dem_limits.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/part_timer.hpp"
 #include "stage_dem/softening.hpp"
@@ -161,8 +162,10 @@ void DemStage::next_phase() {
       break;
     case DemPhase::settling:
       if (state_.phase_time > least_settling - same_time &&
-          (state_.mean_speed < rest_speed || state_.phase_time > most_settling - same_time))
+          (state_.mean_speed < rest_speed || state_.phase_time > most_settling - same_time)) {
+        check_creep(campaign_, state_.creep_speed, engine_->step());
         enter(DemPhase::relaxing);
+      }
       break;
     case DemPhase::regrowing:
       if (!regrowing_) enter(DemPhase::relaxing);
@@ -302,7 +305,10 @@ void DemStage::watch() {
   state_.fast_parcels += motion.fast;
   if (state_.phase == DemPhase::settling) state_.creep_speed = motion.downwards;
   const double overlap = largest_overlap(campaign_, parcels_, communicator_);
+  const double wall_overlap = largest_wall_overlap(campaign_, parcels_);
   state_.largest_overlap = std::max(state_.largest_overlap, overlap);
+  state_.largest_wall_overlap = std::max(state_.largest_wall_overlap, wall_overlap);
+  if (state_.phase != DemPhase::regrowing) check_overlaps(campaign_, overlap, wall_overlap, engine_->step());
   if (rank_ != 0 || state_.phase == DemPhase::regrowing) return;
   nlohmann::json by_species;
   for (const auto& species : campaign_.species) by_species[species.name] = 0;
@@ -334,8 +340,10 @@ void DemStage::report_progress(bool now) {
       progress.process_seconds_total = state_.time - state_.phase_time + ahead;
       break;
     case DemPhase::averaging:
-    case DemPhase::done:
       progress.process_seconds_total = state_.time - state_.phase_time + campaign_.dem.window;
+      break;
+    case DemPhase::done:
+      progress.process_seconds_total = state_.time;
       break;
     default:
       progress.process_seconds_total = state_.time + ahead;

@@ -27,6 +27,7 @@ struct DemState {
   std::int64_t next_id = 1;
   std::int64_t fast_parcels = 0;             ///< parcels faster than 5 m/s, added up over blocks after the building
   double largest_overlap = 0;                ///< over the smaller radius, after the building
+  double largest_wall_overlap = 0;           ///< over the parcel's radius, after the building
   double creep_speed = 0;                    ///< m/s downwards, end of the settling
   double mean_speed = 0;                     ///< m/s, last block
   double stock_height = 0;                   ///< m
@@ -35,6 +36,7 @@ struct DemState {
 };
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DemState, phase, time, phase_time, last_block, next_id, fast_parcels,
-                                   largest_overlap, creep_speed, mean_speed, stock_height, wall_before, wall_parts)
+                                   largest_overlap, largest_wall_overlap, creep_speed, mean_speed, stock_height,
+                                   wall_before, wall_parts)
 
 }  // namespace cupola

@@ -1,10 +1,11 @@
 #include "stage_dem/gas_coupling.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "physics/closures/drag.hpp"
 #include "physics/closures/gas_properties.hpp"
-#include "physics/projection/bed_state.hpp"
 #include "stage_dem/parcels.hpp"
 
 namespace cupola {
@@ -41,15 +42,15 @@ GasCoupling::GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& ca
     : mesh_(mesh), campaign_(campaign), flow_(foam, mesh, campaign), temperature_(std::move(gas_temperature)) {}
 
 void GasCoupling::update(const SolidsOnMesh& solids, double seconds, bool in_any_case) {
-  const BedState bed = bed_state(mesh_, campaign_, solids.species_volume());
-  cells_at_floor_ = bed.cells_at_floor;
+  bed_ = bed_state(mesh_, campaign_, solids.species_volume());
+  cells_at_floor_ = bed_.cells_at_floor;
   seconds_since_ += seconds;
   const bool first = void_solved_.empty();
   if (!first && !in_any_case && seconds_since_ < longest_between - same_time &&
-      change_of_void(bed.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
+      change_of_void(bed_.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
     return;
-  flow_.solve(bed, temperature_, first ? 1e-4 : force_tolerance, first ? 100 : 10);
-  void_solved_ = bed.void_fraction;
+  flow_.solve(bed_, temperature_, first ? 1e-4 : force_tolerance, first ? 100 : 10);
+  void_solved_ = bed_.void_fraction;
   seconds_since_ = 0;
   ++solves_;
   pressure_ = flow_.pressure();
@@ -62,9 +63,24 @@ void GasCoupling::update(const SolidsOnMesh& solids, double seconds, bool in_any
       gradient_[3 * cell + k] = flow_.pressure_gradient()[cell][k];
       mass_flux_[3 * cell + k] = flow_.mass_flux()[cell][k];
     }
-    const double density = gas_density(pressure_[cell], temperature_[cell], campaign_.scene.gas->molar_mass);
-    speed_[cell] = norm(&mass_flux_[3 * cell]) / density / bed.void_fraction[cell];
+    speed_[cell] = norm(&mass_flux_[3 * cell]) / density(cell) / bed_.void_fraction[cell];
   }
+}
+
+double GasCoupling::density(std::size_t cell) const {
+  return gas_density(pressure_[cell], temperature_[cell], campaign_.scene.gas->molar_mass);
+}
+
+double GasCoupling::slip_damping(const Parcel& parcel, std::size_t cell, double solids_volume) const {
+  const double void_fraction = bed_.void_fraction[cell];
+  const double gas_density = density(cell);
+  Vector3 slip{};
+  for (std::size_t k = 0; k < 3; ++k)
+    slip[k] = parcel.velocity[k] - mass_flux_[3 * cell + k] / gas_density / void_fraction;
+  const double resistance =
+      drag_resistance(campaign_.drag, void_fraction, bed_.grain_diameter[cell], campaign_.scene.gas->viscosity,
+                      gas_density, void_fraction * norm(slip.data()), bed_.drag_factor[cell]);
+  return material_volume(campaign_, parcel) * mesh_.cell_volume[cell] / solids_volume * void_fraction * resistance;
 }
 
 std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
@@ -72,16 +88,27 @@ std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const s
   std::vector<ParcelForce> forces(owned.size());
   const auto& volume = solids.volume();
   std::array<double, 3> total{};
+  // On a unit of material volume in each cell: -grad p/alpha_c, and its size over the gas's speed.
+  std::array<std::vector<double>, 4> on_volume;
+  on_volume.fill(std::vector<double>(mesh_.cells(), 0.0));
+  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
+    if (volume[cell] <= 0) continue;
+    const double weight = mesh_.cell_volume[cell] / volume[cell];
+    for (std::size_t k = 0; k < 3; ++k) on_volume[k][cell] = -weight * gradient_[3 * cell + k];
+    on_volume[3][cell] = weight * norm(&gradient_[3 * cell]) / std::max(speed_[cell], least_speed);
+  }
+  for (auto& values : on_volume) solids.gather(values);
   for (std::size_t i = 0; i < owned.size(); ++i) {
     ParcelForce& force = forces[i];
     const double parcel_volume = material_volume(campaign_, owned[i]);
     for (const auto& [index, share] : solids.shares(i)) {
       const auto cell = static_cast<std::size_t>(index);
-      // V_ic / alpha_c, alpha_c = volume of solids in the cell over the cell's volume
-      const double weight = parcel_volume * share / volume[cell] * mesh_.cell_volume[cell];
-      for (std::size_t k = 0; k < 3; ++k) force.force[k] -= weight * gradient_[3 * cell + k];
-      force.damping += weight * norm(&gradient_[3 * cell]) / std::max(speed_[cell], least_speed);
+      for (std::size_t k = 0; k < 3; ++k) force.force[k] += parcel_volume * share * on_volume[k][cell];
+      force.damping += parcel_volume * share * on_volume[3][cell];
     }
+    const auto centre = static_cast<std::size_t>(solids.cell(i));
+    if (solids.cell(i) >= 0 && volume[centre] > 0)
+      force.damping = std::max(force.damping, slip_damping(owned[i], centre, volume[centre]));
     for (std::size_t k = 0; k < 3; ++k) total[k] += force.force[k];
   }
   MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
@@ -98,9 +125,8 @@ std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const s
 std::vector<double> GasCoupling::velocity() const {
   std::vector<double> velocity(mass_flux_.size());
   for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
-    const double density = gas_density(pressure_[cell], temperature_[cell], campaign_.scene.gas->molar_mass);
     for (std::size_t k = 0; k < 3; ++k)
-      velocity[3 * cell + k] = mass_flux_[3 * cell + k] / density / void_solved_[cell];
+      velocity[3 * cell + k] = mass_flux_[3 * cell + k] / density(cell) / void_solved_[cell];
   }
   return velocity;
 }

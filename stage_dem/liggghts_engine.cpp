@@ -13,8 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <unordered_set>
 
@@ -22,6 +20,7 @@
 #include "schemas/plain_path.hpp"
 #include "stage_dem/liggghts_instance.hpp"
 #include "stage_dem/liggghts_script.hpp"
+#include "stage_dem/memory_file.hpp"
 #include "stage_dem/parcels.hpp"
 
 namespace cupola {
@@ -31,8 +30,7 @@ class LiggghtsEngine final : public Engine {
  public:
   LiggghtsEngine(const Campaign& campaign, const EngineSetUp& set_up, MPI_Comm communicator)
       : plain_folder_(set_up.folder),
-        folder_(plain_folder_.path().string()),
-        liggghts_(communicator, folder_ + "/liggghts.log"),
+        liggghts_(communicator, (plain_folder_.path() / "liggghts.log").string()),
         depth_(period(campaign)) {
     for (const auto& line : liggghts_opening(campaign, liggghts_.ranks())) liggghts_.command(line);
     int resumed = set_up.from.empty() ? 0 : 1;
@@ -139,20 +137,9 @@ class LiggghtsEngine final : public Engine {
   }
 
   std::vector<std::uint8_t> snapshot() override {
-    const std::string file = folder_ + "/liggghts.restart";
-    liggghts_.command("write_restart " + file);
-    std::vector<std::uint8_t> bytes;
-    if (liggghts_.rank() == 0) {
-      std::ifstream stream(file, std::ios::binary);
-      bytes.assign(std::istreambuf_iterator<char>(stream), {});
-      stream.close();
-      std::filesystem::remove(file);
-      if (bytes.empty())
-        throw Failure(ExitCode::input_output,
-                      "LIGGGHTS' restart file could not be written and read back: is the disk full?")
-            .at("file", file);
-    }
-    return bytes;
+    const MemoryFile file;
+    liggghts_.command("write_restart " + file.name());
+    return liggghts_.rank() == 0 ? file.bytes() : std::vector<std::uint8_t>{};
   }
 
  private:
@@ -165,17 +152,8 @@ class LiggghtsEngine final : public Engine {
   }
 
   void read_restart(const std::vector<std::uint8_t>& bytes) {
-    const std::string file = folder_ + "/liggghts.restart";
-    if (liggghts_.rank() == 0) {
-      std::ofstream stream(file, std::ios::binary);
-      stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-      if (!stream)
-        throw Failure(ExitCode::input_output, "LIGGGHTS' restart file could not be written").at("file", file);
-    }
-    MPI_Barrier(liggghts_.communicator());
-    liggghts_.command("read_restart " + file);
-    MPI_Barrier(liggghts_.communicator());
-    if (liggghts_.rank() == 0) std::filesystem::remove(file);
+    const MemoryFile file(bytes);
+    liggghts_.command("read_restart " + file.name());
   }
 
   /// The first run sets per-parcel properties to their defaults, or to what the restart file holds: an empty one before
@@ -293,7 +271,6 @@ class LiggghtsEngine final : public Engine {
   }
 
   PlainPath plain_folder_;
-  std::string folder_;
   LiggghtsInstance liggghts_;
   double depth_;        ///< m, period along y; 0 with walls
   bool ready_ = false;  ///< whether a first run has been made

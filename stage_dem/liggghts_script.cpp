@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "physics/closures/collision_time.hpp"
 #include "schemas/failure.hpp"
 #include "stage_dem/parcels.hpp"
 
@@ -51,15 +52,15 @@ std::string contact_settings(const Contacts& contacts) {
 
 void add_linear_spring(const Campaign& campaign, std::vector<std::string>& script) {
   const auto stiffness = [&](std::size_t i, std::size_t j) { return pair_stiffness(campaign, i, j); };
-  // Tangential over normal stiffness: 2/7, with which the periods of the two springs are the same for a sphere.
-  const auto tangential = [&](std::size_t i, std::size_t j) { return 2.0 / 7 * pair_stiffness(campaign, i, j); };
+  const auto tangential = [&](std::size_t i, std::size_t j) {
+    return campaign.contacts.tangential_ratio * pair_stiffness(campaign, i, j);
+  };
   const auto damping = [&](std::size_t i, std::size_t j) {
     const std::size_t wall = campaign.species.size();
     if (i == wall) return pair_damping(campaign.contacts.stiffness, parcel_mass(campaign.species.front()), 0.5);
     const double mass_i = parcel_mass(campaign.species[i]);
-    const double reduced =
-        j == wall ? mass_i : mass_i * parcel_mass(campaign.species[j]) / (mass_i + parcel_mass(campaign.species[j]));
-    return pair_damping(pair_stiffness(campaign, i, j), reduced, contact_pair(campaign, i, j).restitution);
+    const double reduced_mass = j == wall ? mass_i : cupola::reduced_mass(mass_i, parcel_mass(campaign.species[j]));
+    return pair_damping(pair_stiffness(campaign, i, j), reduced_mass, contact_pair(campaign, i, j).restitution);
   };
   script.push_back(pair_property(campaign, "kn", stiffness));
   script.push_back(pair_property(campaign, "kt", tangential));
@@ -88,15 +89,11 @@ double pair_stiffness(const Campaign& campaign, std::size_t first, std::size_t s
   const auto coarse_graining = [&](std::size_t i) { return campaign.species[i].coarse_graining; };
   if (first == wall) return campaign.contacts.stiffness;
   if (second == wall) return coarse_graining(first) * campaign.contacts.stiffness;
-  return 2 * coarse_graining(first) * coarse_graining(second) / (coarse_graining(first) + coarse_graining(second)) *
-         campaign.contacts.stiffness;
+  return parcel_pair_stiffness(campaign.contacts.stiffness, coarse_graining(first), coarse_graining(second));
 }
 
 double pair_damping(double stiffness, double reduced_mass, double restitution) {
-  const double logarithm = std::log(std::clamp(restitution, 0.001, 1.0));
-  const double collision_time =
-      std::sqrt(std::numbers::pi * std::numbers::pi + logarithm * logarithm) * std::sqrt(reduced_mass / stiffness);
-  return -2 * reduced_mass * logarithm / collision_time;
+  return collision_damping(reduced_mass, stiffness, std::clamp(restitution, 0.001, 1.0));
 }
 
 std::vector<std::string> liggghts_opening(const Campaign& campaign, int ranks) {

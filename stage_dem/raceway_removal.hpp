@@ -8,7 +8,9 @@ namespace cupola {
 
 /// Takes parcels out of the raceways at their mass rates (MODEL 4).  A raceway is owed rate x time; while it is owed a
 /// whole parcel, one of those in its box, whatever the species, is drawn at random and taken out.  What a raceway
-/// cannot get for more than a second is forgone and counted as starvation, so that it is not made up for in a gulp.
+/// cannot get for more than a second is forgone and counted as starvation, so that it is not made up for in a gulp.  A
+/// raceway that keeps a void takes only what fills its box beyond that void (material volume over the box's, the last
+/// whole parcel left in), at most at its rate, and does not starve.
 class RacewayRemoval {
  public:
   explicit RacewayRemoval(const Campaign& campaign);

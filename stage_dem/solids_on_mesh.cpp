@@ -7,7 +7,10 @@
 namespace cupola {
 
 SolidsOnMesh::SolidsOnMesh(const BedMesh& mesh, const Campaign& campaign, MPI_Comm communicator)
-    : mesh_(mesh), campaign_(campaign), communicator_(communicator), locator_(mesh) {}
+    : mesh_(mesh), campaign_(campaign), communicator_(communicator), locator_(mesh) {
+  if (campaign.dem.void_fraction == DemSettings::VoidFraction::smoothed)
+    smoothing_.emplace(mesh, std::vector<bool>{}, campaign.dem.smoothing_length);
+}
 
 void SolidsOnMesh::divide(const std::vector<Parcel>& owned) {
   first_.assign(1, 0);
@@ -58,6 +61,13 @@ std::vector<double> SolidsOnMesh::sums(std::size_t columns,
       for (std::size_t k = 0; k < columns; ++k) sum[static_cast<std::size_t>(cell) * columns + k] += share * values[k];
   }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, communicator_);
+  if (!smoothing_) return sum;
+  std::vector<double> column(mesh_.cells());
+  for (std::size_t k = 0; k < columns; ++k) {
+    for (std::size_t cell = 0; cell < column.size(); ++cell) column[cell] = sum[cell * columns + k];
+    smoothing_->apply(column);
+    for (std::size_t cell = 0; cell < column.size(); ++cell) sum[cell * columns + k] = column[cell];
+  }
   return sum;
 }
 

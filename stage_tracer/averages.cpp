@@ -53,6 +53,26 @@ BySpecies Averages::temperature() const {
   return result;
 }
 
+std::pair<std::vector<double>, std::vector<double>> Averages::solids(const Campaign& campaign) const {
+  std::vector<double> capacity(cells_, 0.0);
+  std::vector<double> temperature(cells_, 0.0);
+  if (!heat_ || seconds_ <= 0) return {capacity, temperature};
+  for (std::size_t i = 0; i < volume_.size(); ++i) {
+    if (!(volume_[i] > 0)) continue;
+    const Species& species = campaign.species[i / cells_];
+    const double mean = volume_temperature_[i] / volume_[i];
+    const double here = species.density * species.heat_capacity.at(mean) * volume_[i] / seconds_;
+    capacity[i % cells_] += here;
+    temperature[i % cells_] += here * mean;
+  }
+  for (std::size_t c = 0; c < cells_; ++c) {
+    if (capacity[c] > 0) temperature[c] /= capacity[c];
+  }
+  return {capacity, temperature};
+}
+
+void Averages::clear() { *this = Averages(species_, cells_, heat_); }
+
 std::vector<double> Averages::row() const {
   std::vector<double> result = {seconds_, mean_};
   result.insert(result.end(), volume_.begin(), volume_.end());

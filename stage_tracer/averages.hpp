@@ -1,4 +1,5 @@
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "schemas/campaign.hpp"
@@ -21,6 +22,12 @@ class Averages {
   [[nodiscard]] BySpecies temperature() const;
   /// Heat-capacity weighted mean over all solids, K.
   [[nodiscard]] double mean_solid_temperature() const { return seconds_ > 0 ? mean_ / seconds_ : 0; }
+
+  /// Heat capacity (J/K) and mean temperature (K) of all solids in each cell.
+  [[nodiscard]] std::pair<std::vector<double>, std::vector<double>> solids(const Campaign& campaign) const;
+
+  /// Begins anew.
+  void clear();
 
   [[nodiscard]] std::vector<double> row() const;
   void restore(const std::vector<double>& row);

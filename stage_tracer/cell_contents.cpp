@@ -2,6 +2,16 @@
 
 namespace cupola {
 
+double kernel_diameter(const Campaign& campaign, const Charge& charge) {
+  double diameter = 0;
+  double share = 0;
+  for (std::size_t s = 0; s < campaign.species.size(); ++s) {
+    diameter += charge.volume_share[s] * campaign.species[s].parcel_diameter();
+    share += charge.volume_share[s];
+  }
+  return share > 0 ? diameter / share : campaign.species.front().parcel_diameter();
+}
+
 CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_t cells, bool heat,
                          const SumOverRanks& sum) {
   // One flat array, so that the ranks exchange one message: volumes, then volume x temperature.
@@ -29,12 +39,16 @@ CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_
 
 CellContents spread(const CellContents& contents, const CellSpreading& kernel) {
   CellContents result = contents;
-  for (std::size_t s = 0; s < contents.volume.size(); ++s) {
-    kernel.apply(result.volume[s]);
-    if (contents.temperature.empty()) continue;
+  std::vector<std::vector<double>*> sums;
+  for (auto& volume : result.volume) sums.push_back(&volume);
+  for (std::size_t s = 0; s < result.temperature.size(); ++s) {
     std::vector<double>& mean = result.temperature[s];
     for (std::size_t c = 0; c < mean.size(); ++c) mean[c] *= contents.volume[s][c];
-    kernel.apply(mean);
+    sums.push_back(&mean);
+  }
+  kernel.apply(sums);
+  for (std::size_t s = 0; s < result.temperature.size(); ++s) {
+    std::vector<double>& mean = result.temperature[s];
     for (std::size_t c = 0; c < mean.size(); ++c) mean[c] = result.volume[s][c] > 0 ? mean[c] / result.volume[s][c] : 0;
   }
   return result;

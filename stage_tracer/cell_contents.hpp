@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "physics/plan/charge.hpp"
 #include "physics/projection/cell_spreading.hpp"
 #include "stage_tracer/ranks.hpp"
 #include "stage_tracer/tracers.hpp"
@@ -15,6 +16,9 @@ struct CellContents {
   BySpecies volume;       ///< m3, material
   BySpecies temperature;  ///< K, volume-weighted mean of each species; 0 where there is none; empty without heat
 };
+
+/// Diameter of the parcels whose volume is spread: mean by the recipe's volume, or of all species, m.
+double kernel_diameter(const Campaign& campaign, const Charge& charge);
 
 /// Sums the tracers in the cells they are in. @param heat whether tracers carry temperatures
 CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_t cells, bool heat,

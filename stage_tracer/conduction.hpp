@@ -45,8 +45,8 @@ class Conduction {
                                  const std::vector<bool>& free, const BySpecies& gas_conductance,
                                  const BySpecies& gas_temperature) const;
 
- private:
-  /// Conductances between the unknowns species x cells + cell.
+  /// Conductances between the places species x cells + cell, as they stand.
+  /// @param contents spread
   [[nodiscard]] std::vector<Link> links(const CellContents& contents, const BySpecies& bed_volume) const;
   [[nodiscard]] BySpecies shares(const CellContents& contents, const BySpecies& bed_volume) const;
   /// k_eff, W/m/K, [species][cell].
@@ -57,6 +57,7 @@ class Conduction {
   /// To the outside, W/K, species x cells + cell.
   [[nodiscard]] std::vector<double> wall_conductance(const CellContents& contents, const BySpecies& bed_volume) const;
 
+ private:
   const BedMesh& mesh_;
   const Campaign& campaign_;
   std::vector<bool> bed_;

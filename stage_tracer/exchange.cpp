@@ -9,6 +9,16 @@
 
 namespace cupola {
 
+namespace {
+
+std::vector<std::vector<double>*> pointers(BySpecies& arrays) {
+  std::vector<std::vector<double>*> result;
+  for (auto& array : arrays) result.push_back(&array);
+  return result;
+}
+
+}  // namespace
+
 std::vector<double> volumetric_heat_capacity(const Species& species, const std::vector<double>& temperature) {
   std::vector<double> capacity(temperature.size());
   for (std::size_t c = 0; c < capacity.size(); ++c)
@@ -25,8 +35,6 @@ void Exchange::set_rates(const GasFields& gas, const CellContents& contents, dou
   const Heat& heat = *campaign_.heat;
   const std::size_t cells = gas.mass_flux.size();
   coefficient_.assign(campaign_.species.size(), std::vector<double>(cells));
-  decay_ = coefficient_;
-  mean_decay_ = coefficient_;
   largest_biot_.assign(campaign_.species.size(), 0.0);
   std::vector<GasAround> around(cells);
   for (std::size_t c = 0; c < cells; ++c) {
@@ -47,41 +55,59 @@ void Exchange::set_rates(const GasFields& gas, const CellContents& contents, dou
       if (heat.intragrain_resistance)
         transfer = transfer_with_intragrain_resistance(transfer, species.diameter, conductivity);
     }
-    std::vector<double> felt = coefficient_[s];
-    kernel_.gather(felt);
+  }
+  felt_ = coefficient_;
+  kernel_.gather(pointers(felt_));
+  const CellsOfRank& mine = kernel_.share();
+  decay_ = felt_;
+  mean_decay_ = felt_;
+  for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
+    const Species& species = campaign_.species[s];
     const std::vector<double> capacity = volumetric_heat_capacity(species, contents.temperature[s]);
-    for (std::size_t c = 0; c < cells; ++c) {
-      const double x = 6 / (species.diameter * capacity[c]) * felt[c] * step;
+    for (std::size_t c = mine.begin; c < mine.end; ++c) {
+      const double x = 6 / (species.diameter * capacity[c]) * felt_[s][c] * step;
       decay_[s][c] = std::exp(-x);
       mean_decay_[s][c] = mean_decay(x);
     }
   }
+  mine.complete(pointers(decay_));
+  mine.complete(pointers(mean_decay_));
 }
 
 SolidsExchange Exchange::solids(const CellContents& contents) const {
   const std::size_t cells = coefficient_.front().size();
+  const std::size_t species = coefficient_.size();
   SolidsExchange result{std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
-  for (std::size_t s = 0; s < coefficient_.size(); ++s) {
-    std::vector<double> area(cells);
-    std::vector<double> area_temperature(cells);
+  BySpecies area(species, std::vector<double>(cells));
+  BySpecies area_temperature = area;
+  for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      area[c] = mean_decay_[s][c] * 6 * contents.volume[s][c] / campaign_.species[s].diameter;
-      area_temperature[c] = area[c] * contents.temperature[s][c];
+      area[s][c] = mean_decay_[s][c] * 6 * contents.volume[s][c] / campaign_.species[s].diameter;
+      area_temperature[s][c] = area[s][c] * contents.temperature[s][c];
     }
-    kernel_.apply(area);
-    kernel_.apply(area_temperature);
+  }
+  std::vector<std::vector<double>*> sums = pointers(area);
+  for (auto& values : area_temperature) sums.push_back(&values);
+  kernel_.apply(sums);
+  for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      result.conductance[c] += coefficient_[s][c] * area[c];
-      result.conductance_temperature[c] += coefficient_[s][c] * area_temperature[c];
+      result.conductance[c] += coefficient_[s][c] * area[s][c];
+      result.conductance_temperature[c] += coefficient_[s][c] * area_temperature[s][c];
     }
   }
   return result;
 }
 
 BySpecies Exchange::felt_temperature(const std::vector<double>& gas_temperature) const {
-  BySpecies result;
-  for (const std::vector<double>& coefficient : coefficient_)
-    result.push_back(kernel_.gather(gas_temperature, coefficient));
+  BySpecies result = coefficient_;
+  for (auto& values : result) {
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] *= gas_temperature[c];
+  }
+  kernel_.gather(pointers(result));
+  for (std::size_t s = 0; s < result.size(); ++s) {
+    for (std::size_t c = 0; c < result[s].size(); ++c)
+      result[s][c] = felt_[s][c] > 0 ? result[s][c] / felt_[s][c] : gas_temperature[c];
+  }
   return result;
 }
 

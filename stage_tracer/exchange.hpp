@@ -55,6 +55,7 @@ class Exchange {
   const CellSpreading& kernel_;
   GasState gas_;
   BySpecies coefficient_;  ///< h, W/m2/K
+  BySpecies felt_;         ///< h as a tracer in the cell feels it, W/m2/K
   BySpecies decay_;
   BySpecies mean_decay_;
   std::vector<double> largest_biot_;

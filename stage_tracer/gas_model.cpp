@@ -53,6 +53,10 @@ void GasModel::solve_flow_tightly(const BedState& bed) {
 }
 
 void GasModel::follow(const BedState& bed) {
+  if (campaign_.tracer.resolve == TracerSettings::Resolve::every_step) {
+    solve_flow_tightly(bed);
+    return;
+  }
   const std::vector<double> now = resistance(bed);
   double difference = 0;
   double norm = 0;
@@ -82,7 +86,7 @@ std::vector<double> GasModel::resistance(const BedState& bed) const {
     result[c] =
         bed.void_fraction[c] < 1
             ? temperature_[c] * drag_resistance(campaign_.drag, bed.void_fraction[c], bed.grain_diameter[c],
-                                                gas_viscosity(gas, temperature_[c]), 1.0, speed, bed.polydispersity[c])
+                                                gas_viscosity(gas, temperature_[c]), 1.0, speed, bed.drag_factor[c])
             : 0;
   }
   return result;

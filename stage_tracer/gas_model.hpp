@@ -22,8 +22,13 @@ class GasModel {
   /// Solves the flow to a tight tolerance, whatever has changed.
   void solve_flow_tightly(const BedState& bed);
 
+  /// Some warm iterations of the flow, whatever has changed.
+  void improve_flow(const BedState& bed, double tolerance, int most_iterations) {
+    solve_flow(bed, tolerance, most_iterations);
+  }
+
   /// Solves the flow again where ||R - R_last||/||R_last|| exceeds the threshold, R = T r(|G|) being the resistance of
-  /// each cell to the mass flux; nothing otherwise.
+  /// each cell to the mass flux; nothing otherwise.  With `tracer.resolve: every-step` always, and tightly.
   void follow(const BedState& bed);
 
   /// Steady gas energy with what the solids exchange in this step.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "physics/closures/solid_enthalpy.hpp"
 #include "schemas/failure.hpp"
@@ -34,12 +36,17 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
   BySpecies felt(species, std::vector<double>(cells, 0.0));
   BySpecies decay(species, std::vector<double>(cells, 1.0));
   if (gas != nullptr) {
+    auto running = std::make_optional<PartClock::Running>(clock_, "exchange on cells");
     exchange_.set_rates(fields_of(*gas, bed), contents, step);
     largest_biot_ = exchange_.largest_biot();
-    gas->solve_energy(bed, exchange_.solids(contents));
+    const SolidsExchange solids = exchange_.solids(contents);
+    running.emplace(clock_, "gas energy");
+    gas->solve_energy(bed, solids);
+    running.emplace(clock_, "exchange on cells");
     felt = exchange_.felt_temperature(gas->temperature());
     decay = exchange_.decay();
   }
+  auto running = std::make_optional<PartClock::Running>(clock_, "conduction");
   for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
       if (contents.volume[s][c] > 0)
@@ -54,6 +61,7 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
       if (contents.volume[s][c] > 0) contents.temperature[s][c] += shift[s][c];
     }
   }
+  running.emplace(clock_, "exchange");
   for (std::size_t i = 0; i < tracers.size(); ++i) {
     const std::size_t s = tracers.species[i];
     const auto c = static_cast<std::size_t>(tracers.point[i].cell);
@@ -77,6 +85,22 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
     }
   }
   return conducted.walls;
+}
+
+double HeatStep::relaxation_time(const CellContents& contents, double step) const {
+  double capacity = 0;
+  double conductance = 0;
+  const BySpecies& decay = exchange_.decay();
+  for (std::size_t s = 0; s < decay.size(); ++s) {
+    const Species& species = campaign_.species[s];
+    for (std::size_t c = 0; c < decay[s].size(); ++c) {
+      const double here =
+          species.density * species.heat_capacity.at(contents.temperature[s][c]) * contents.volume[s][c];
+      capacity += here;
+      conductance -= here * std::log(std::max(decay[s][c], 1e-300)) / step;
+    }
+  }
+  return conductance > 0 ? capacity / conductance : std::numeric_limits<double>::infinity();
 }
 
 SolidsExchange HeatStep::solids_at_rest(const CellContents& contents, const BedState& bed, const GasModel& gas) {

@@ -2,6 +2,7 @@
 #include "stage_tracer/conduction.hpp"
 #include "stage_tracer/exchange.hpp"
 #include "stage_tracer/gas_model.hpp"
+#include "stage_tracer/part_clock.hpp"
 #include "stage_tracer/removal.hpp"
 #include "stage_tracer/tracers.hpp"
 
@@ -13,14 +14,19 @@ namespace cupola {
 /// temperature is that of its new enthalpy.
 class HeatStep {
  public:
-  HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction)
-      : campaign_(campaign), kernel_(kernel), conduction_(conduction), exchange_(campaign, kernel) {}
+  /// @param clock counts the parts `exchange`, `gas energy` and `conduction`
+  HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction, PartClock& clock)
+      : campaign_(campaign), kernel_(kernel), conduction_(conduction), clock_(clock), exchange_(campaign, kernel) {}
 
   /// @param contents sums of all ranks where the tracers are (not spread); its temperatures follow the tracers'
   /// @param gas may be null: conduction alone
   /// @return J that the solids lost to the walls
   double advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
                  GasModel* gas, double step);
+
+  /// Time in which the tracers approach the gas, s: their heat capacity over their conductance in the last step, of
+  /// `step` s; infinite without gas. @param contents as in `advance`
+  [[nodiscard]] double relaxation_time(const CellContents& contents, double step) const;
 
   /// What the gas sees of the solids at rest (no step): for its first solution.
   [[nodiscard]] SolidsExchange solids_at_rest(const CellContents& contents, const BedState& bed, const GasModel& gas);
@@ -38,6 +44,7 @@ class HeatStep {
   const Campaign& campaign_;
   const CellSpreading& kernel_;
   const Conduction& conduction_;
+  PartClock& clock_;
   Exchange exchange_;
   std::vector<double> largest_biot_ = std::vector<double>(campaign_.species.size(), 0.0);
 };

@@ -26,11 +26,13 @@ Insertion::Insertion(const BedMesh& mesh, std::vector<StockFace> faces, const Ch
 }
 
 std::vector<Entry> Insertion::advance(double from, double to) {
-  const std::vector<ChargePlan::Piece> pieces = charge_.pieces(from, to);
+  std::vector<std::vector<ChargePlan::Piece>> pieces;
+  for (std::size_t zone = 0; zone < charge_.zones(); ++zone) pieces.push_back(charge_.pieces(from, to, zone));
+  const std::vector<std::size_t>& zones = charge_.zone_of_place();
   const std::size_t species = tracer_volume_.size();
   std::vector<Entry> entries;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (const ChargePlan::Piece& piece : pieces) {
+    for (const ChargePlan::Piece& piece : pieces[zones.empty() || pieces.size() == 1 ? 0 : zones[f]]) {
       for (std::size_t s = 0; s < species; ++s) {
         const double rate = faces_[f].volume_rate * (*piece.share)[s];
         if (rate <= 0) continue;

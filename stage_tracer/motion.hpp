@@ -15,8 +15,7 @@ namespace cupola {
 /// ranks and for any step.  Melting species that get below their `none_below` are removed as unmelted (MODEL 4).
 class Motion {
  public:
-  Motion(const Campaign& campaign, const GranularField& field, const PathField& paths)
-      : campaign_(campaign), field_(field), paths_(paths) {}
+  Motion(const Campaign& campaign, const GranularField& field, const PathField& paths);
 
   /// Moves this rank's tracers over [from, to]; `entries` (this rank's, sorted by id) join at their exact times with
   /// the charge's temperature.
@@ -27,6 +26,8 @@ class Motion {
   const Campaign& campaign_;
   const GranularField& field_;
   const PathField& paths_;
+  double none_below_;                ///< m, highest `none_below`
+  std::vector<std::uint8_t> marks_;  ///< of each cell: what a tracer that stays in it has to look at
 };
 
 }  // namespace cupola

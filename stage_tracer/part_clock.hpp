@@ -30,6 +30,8 @@ class PartClock {
 
   [[nodiscard]] Running measure(const std::string& part) { return {*this, part}; }
   [[nodiscard]] const std::map<std::string, double>& seconds() const { return seconds_; }
+  /// Counts what was measured in another way.
+  void add(const std::string& part, double seconds) { seconds_[part] += seconds; }
   /// Goes on from what an earlier start of the task has spent.
   void restore(std::map<std::string, double> seconds) { seconds_ = std::move(seconds); }
 

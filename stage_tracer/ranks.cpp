@@ -13,6 +13,31 @@ SumOverRanks sum_over_world() {
   };
 }
 
+CellsOfRank share_cells(std::size_t cells) {
+  int rank = 0;
+  int ranks = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks == 1) return CellsOfRank::all(cells);
+  std::vector<int> begins;
+  std::vector<int> counts;
+  for (int r = 0; r < ranks; ++r) {
+    const auto number = [&](int k) { return static_cast<int>(cells * static_cast<std::size_t>(k) / ranks); };
+    begins.push_back(number(r));
+    counts.push_back(number(r + 1) - number(r));
+  }
+  CellsOfRank share;
+  share.begin = static_cast<std::size_t>(begins[rank]);
+  share.end = share.begin + static_cast<std::size_t>(counts[rank]);
+  share.others = [begins, counts](const std::vector<std::vector<double>*>& arrays) {
+    for (std::vector<double>* array : arrays) {
+      MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, array->data(), counts.data(), begins.data(), MPI_DOUBLE,
+                     MPI_COMM_WORLD);
+    }
+  };
+  return share;
+}
+
 std::vector<double> gather_to_first(const std::vector<double>& local) {
   int rank = 0;
   int ranks = 1;

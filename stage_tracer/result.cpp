@@ -206,6 +206,7 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       {"process_seconds", outcome.process_seconds},
       {"wall_seconds", outcome.wall_seconds},
       {"wall_seconds_by_part", outcome.wall_seconds_by_part},
+      {"imbalance", {{"motion", outcome.motion_imbalance}}},
       {"time_step", outcome.time_step},
       {"steps", outcome.steps},
       {"flow_solves", 0},
@@ -223,6 +224,20 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       {"ledger", outcome.ledger.to_json(heat)},
       {"clamps", {{"void_fraction_cells", outcome.cells_at_floor}}}};
 
+  if (outcome.step_error)
+    summary["accuracy"] = {{"asked", campaign.tracer.accuracy}, {"time_step_error", *outcome.step_error}};
+  if (outcome.until_steady) {
+    summary["steady"] = {{"asked", campaign.tracer.remaining_change},
+                         {"reached", outcome.process_seconds < campaign.tracer.longest() * (1 - 1e-9)},
+                         {"remaining_change", nullptr},
+                         {"windows", outcome.windows}};
+    if (outcome.remaining) {
+      summary["steady"]["remaining_change"] = outcome.remaining->change;
+      summary["steady"]["ratio"] = outcome.remaining->ratio;
+    }
+  }
+  if (outcome.held_back) summary["displacements_held_back"] = *outcome.held_back;
+
   const BySpecies volume = outcome.averages.volume();
   const BySpecies share = volume_shares({volume, {}}, share_of_persistent(campaign, outcome.field.charge));
   for (std::size_t s = 0; s < campaign.species.size(); ++s)
@@ -238,6 +253,7 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       summary["biot_largest"][campaign.species[s].name] = outcome.largest_biot[s];
   }
   if (heat) write_temperatures(file, task, outcome, summary);
+  if (!outcome.prediction.is_null()) summary["prediction"] = outcome.prediction;
   write_tracers(file.hdf(), outcome, heat);
   file.summary(summary);
   file.commit();

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "stage_tracer/gas_model.hpp"
 #include "stage_tracer/granular_field.hpp"
 #include "stage_tracer/ledger.hpp"
+#include "stage_tracer/steady_watch.hpp"
 #include "stage_tracer/tracers.hpp"
 
 namespace cupola {
@@ -47,9 +49,16 @@ struct MarchOutcome {
   double process_seconds = 0;
   double wall_seconds = 0;
   std::map<std::string, double> wall_seconds_by_part{};
+  double motion_imbalance = 1;  ///< largest over mean time of the ranks in moving tracers
   std::int64_t cells_at_floor = 0;
   std::vector<double> largest_biot{};  ///< of each species, in the last step
   nlohmann::json gas_comparison{};     ///< of both gas models, where asked for
+  nlohmann::json prediction{};         ///< of a prediction: how it came about; null for a march
+  std::optional<double> step_error{};  ///< estimated error of the temperatures from the time step; with heat
+  bool until_steady = false;
+  std::optional<RemainingChange> remaining{};  ///< of a march until steady, where it is known
+  std::size_t windows = 0;                     ///< of it
+  std::optional<std::int64_t> held_back{};     ///< displacements not made because of walls
 };
 
 /// Writes `result.hdf` of the task folder as docs/contracts.md has it.

@@ -59,7 +59,7 @@ Tracers seed_tracers(const Campaign& campaign, const CellLocator& locator, const
     const double volume = packing.mass[p] / campaign.species[packing.species[p]].density / split;
     for (int j = 0; j < split; ++j) {
       const std::int64_t id = packing.id[p] * tracer_ids_per_parcel + j;
-      if (id % ranks != rank) continue;
+      if (rank_of(id, ranks) != rank) continue;
       Vector3 position = packing.position[p];
       std::int64_t cell = centre_cell;
       if (split > 1) {

@@ -10,15 +10,12 @@
 
 namespace cupola {
 
-/// Id of tracer j of a parcel: parcel id * 1000 + j.
-inline constexpr std::int64_t tracer_ids_per_parcel = 1000;
-
 /// Into how many tracers each parcel is split, so that bed cells hold `tracer.tracers_per_cell` on average: at least 1.
 /// @throws Failure wrong_input: no parcel in the bed
 int tracers_per_parcel(const Campaign& campaign, const CellLocator& locator, const std::vector<bool>& bed,
                        const Packing& packing);
 
-/// Seeds this rank's tracers (id % ranks == rank) from the packing: parcels with their centre in the bed, each split
+/// Seeds this rank's tracers (`rank_of`) from the packing: parcels with their centre in the bed, each split
 /// into `split` equal tracers at random points of the parcel's ball (in its centre where that point lies outside the
 /// bed).  Volume is mass/density.
 /// @param paths gives the reference point inside a cell

@@ -32,19 +32,23 @@ double crossing_time(const BedMesh& mesh, const GranularField& field, const Path
 
 }  // namespace
 
+TimeSteps fill_with_steps(double duration, double longest) {
+  TimeSteps steps;
+  steps.count = std::max(1L, static_cast<long>(std::ceil(duration / longest - 1e-9)));
+  steps.length = duration / static_cast<double>(steps.count);
+  return steps;
+}
+
 TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
                             const PathField& paths, const ChargePlan* charge) {
-  const double duration = campaign.tracer.duration;
+  const double duration = campaign.tracer.longest();
   double length = duration / 100;
   if (campaign.tracer.time_step) {
     length = *campaign.tracer.time_step;
   } else if (charge != nullptr) {
     length = part_of_crossing * std::min(crossing_time(mesh, field, paths), charge->thinnest_layer_seconds());
   }
-  TimeSteps steps;
-  steps.count = std::max(1L, static_cast<long>(std::ceil(duration / length - 1e-9)));
-  steps.length = duration / static_cast<double>(steps.count);
-  return steps;
+  return fill_with_steps(duration, length);
 }
 
 }  // namespace cupola

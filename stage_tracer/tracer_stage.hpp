@@ -20,6 +20,8 @@
 #include "stage_tracer/part_clock.hpp"
 #include "stage_tracer/previous_temperature.hpp"
 #include "stage_tracer/result.hpp"
+#include "stage_tracer/steady_watch.hpp"
+#include "stage_tracer/step_error.hpp"
 #include "stage_tracer/time_step.hpp"
 
 namespace cupola {
@@ -39,19 +41,30 @@ class TracerStage {
   void begin();
   void resume(const std::filesystem::path& checkpoint);
   void write_checkpoint();
+  void write_state(HdfWriter& file, const std::vector<double>& all_tracer_rows) const;
+  void read_state(const HdfReader& file);
 
+  /// What the step costs in accuracy, by step doubling; an automatic step follows it.
+  void estimate_error();
+  /// Difference of the tracers' temperatures after two steps and after one of twice the length; the state stays.
+  [[nodiscard]] double compare_steps();
+  void save_trial() const;
   void step();
-  void move(double from, double to);
+  void advance(double seconds);
+  void move(double to);
+  void displace_tracers(double seconds);
   void compose();
-  void exchange_heat();
+  void exchange_heat(double seconds);
   void begin_gas();
-  void average();
+  void average(double seconds);
+  [[nodiscard]] bool is_steady();
   void close_balances();
-  void write_output(bool checkpoint_now);
+  void write_output(bool checkpoint_now, bool last);
   [[nodiscard]] nlohmann::json history_line() const;
   [[nodiscard]] MarchOutcome outcome();
 
-  [[nodiscard]] double time(double steps) const { return steps * steps_.length; }
+  /// Length of the windows that means are taken over: one layer passage.
+  [[nodiscard]] double window() const;
   [[nodiscard]] double wall_seconds() const;
 
   FoamCase& foam_;
@@ -71,15 +84,23 @@ class TracerStage {
   PathField paths_;
   int split_;                                 ///< tracers a parcel
   std::unique_ptr<const ChargePlan> charge_;  ///< null for a bed at rest
-  TimeSteps steps_;
+  TimeSteps steps_;                           ///< of the whole stage; the length is that of the steps to come
+  double longest_step_;                       ///< s, of automatic steps
   CellSpreading kernel_;
   Conduction conduction_;
   Motion motion_;
   SumOverRanks sum_;
   std::vector<double> empty_share_;
+  std::vector<bool> displaced_;  ///< cells whose tracers may be displaced
 
   // The state of the march.
   long step_ = 0;
+  double now_ = 0;           ///< s, end of the last step
+  double positions_at_ = 0;  ///< s, time the tracers' positions belong to: the middle of the last step
+  SteadyWatch steady_;
+  StepError step_error_;
+  double error_memory_ = 0;     ///< s, for how long the tracers remember what was wrong in a step
+  std::int64_t held_back_ = 0;  ///< displacements of this rank's tracers not made because of walls
   Tracers tracers_;
   std::unique_ptr<Insertion> insertion_;  ///< null for a bed at rest
   Ledger ledger_;

@@ -29,6 +29,25 @@ void Tracers::remove(const std::vector<std::uint8_t>& drop) {
   if (!temperature.empty()) temperature.resize(kept);
 }
 
+void Tracers::sort_by_cell(std::size_t cells) {
+  std::vector<std::size_t> place(cells + 1, 0);
+  for (const PathField::Point& where : point) ++place[static_cast<std::size_t>(where.cell) + 1];
+  for (std::size_t c = 0; c < cells; ++c) place[c + 1] += place[c];
+  std::vector<std::size_t> target(size());
+  for (std::size_t i = 0; i < size(); ++i) target[i] = place[static_cast<std::size_t>(point[i].cell)]++;
+  const auto reorder = [&](auto& values) {
+    auto sorted = values;
+    for (std::size_t i = 0; i < values.size(); ++i) sorted[target[i]] = values[i];
+    values = std::move(sorted);
+  };
+  reorder(id);
+  reorder(species);
+  reorder(point);
+  reorder(volume);
+  reorder(life);
+  reorder(temperature);
+}
+
 std::vector<double> to_rows(const Tracers& tracers) {
   std::vector<double> rows;
   rows.reserve(tracers.size() * tracer_columns);
@@ -43,16 +62,12 @@ std::vector<double> to_rows(const Tracers& tracers) {
 }
 
 Tracers from_rows(const std::vector<double>& rows, bool heat, int rank, int ranks) {
-  std::vector<std::size_t> mine;
-  for (std::size_t r = 0; r < rows.size(); r += tracer_columns) {
-    if (static_cast<std::int64_t>(rows[r]) % ranks == rank) mine.push_back(r);
-  }
-  std::sort(mine.begin(), mine.end(), [&](std::size_t a, std::size_t b) { return rows[a] < rows[b]; });
   Tracers tracers;
-  for (const std::size_t r : mine) {
+  for (std::size_t r = 0; r < rows.size(); r += tracer_columns) {
+    const auto id = static_cast<std::int64_t>(rows[r]);
+    if (rank_of(id, ranks) != rank) continue;
     const PathField::Point point{static_cast<std::int64_t>(rows[r + 2]), {rows[r + 3], rows[r + 4], rows[r + 5]}};
-    tracers.add(static_cast<std::int64_t>(rows[r]), static_cast<std::uint8_t>(rows[r + 1]), point, rows[r + 6],
-                rows[r + 7]);
+    tracers.add(id, static_cast<std::uint8_t>(rows[r + 1]), point, rows[r + 6], rows[r + 7]);
     if (heat) tracers.temperature.push_back(rows[r + 8]);
   }
   return tracers;

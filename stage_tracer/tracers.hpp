@@ -7,8 +7,8 @@
 namespace cupola {
 
 /// Grains that follow the granular field without colliding: one tracer stands for a fixed material volume
-/// (mass/density) of one species.  A tracer belongs to rank `id % ranks` for life; each rank keeps its own sorted by
-/// id.
+/// (mass/density) of one species.  A tracer belongs to one rank for life (`rank_of`).  The order is of no meaning; it
+/// follows the cells from time to time (`sort_by_cell`), so that neighbours in memory use the same values of cells.
 struct Tracers {
   std::vector<std::int64_t> id;
   std::vector<std::uint8_t> species;  ///< index in Campaign::species
@@ -30,13 +30,24 @@ struct Tracers {
 
   /// Drops the tracers for which `drop[i]` is not 0, keeping the order of the others.
   void remove(const std::vector<std::uint8_t>& drop);
+
+  /// Puts them in the order of their cells; within a cell the order is kept.
+  void sort_by_cell(std::size_t cells);
 };
+
+/// Id of tracer j of a parcel: parcel id * 1000 + j.
+inline constexpr std::int64_t tracer_ids_per_parcel = 1000;
+
+/// The rank a tracer belongs to: tracers of one parcel, and parcels with ids in a row, are dealt out in turn.
+inline int rank_of(std::int64_t id, int ranks) {
+  return static_cast<int>((id / tracer_ids_per_parcel + id % tracer_ids_per_parcel) % ranks);
+}
 
 /// A tracer as a row of numbers, for messages between ranks and checkpoints: id, species, cell, reference point (3),
 /// volume, life, temperature (0 without heat).
 inline constexpr std::size_t tracer_columns = 9;
 std::vector<double> to_rows(const Tracers& tracers);
-/// Of `rows` (any order) those that belong to this rank, sorted by id.
+/// Of `rows` those that belong to this rank, in the order of the rows.
 Tracers from_rows(const std::vector<double>& rows, bool heat, int rank, int ranks);
 
 /// The exponentially distributed life, mean 1, of a tracer: it is removed when the integral of the removal rate along

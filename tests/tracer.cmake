@@ -1,7 +1,7 @@
 cupola_test(
   unit_tracer
   LABEL unit
-  SOURCES unit/tracer/charge_test.cpp unit/tracer/granular_field_test.cpp unit/tracer/heat_test.cpp unit/tracer/melting_zone_test.cpp unit/tracer/tracers_test.cpp
+  SOURCES unit/tracer/charge_test.cpp unit/tracer/granular_field_test.cpp unit/tracer/heat_test.cpp unit/tracer/march_control_test.cpp unit/tracer/melting_zone_test.cpp unit/tracer/tracers_test.cpp
   LIBRARIES cupola_tracer_parts cupola_box_mesh)
 
 cupola_library(cupola_settled_bed support/settled_bed.cpp support/stated_bed.cpp)
@@ -17,7 +17,7 @@ add_dependencies(cupola_tracer_program cupola-tracer)
 cupola_test(
   workflow_tracer
   LABEL workflow
-  SOURCES workflow/tracer/march_test.cpp
+  SOURCES workflow/tracer/march_test.cpp workflow/tracer/march_control_test.cpp
   LIBRARIES cupola_tracer_program)
 target_compile_definitions(workflow_tracer PRIVATE CUPOLA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
 

@@ -29,6 +29,9 @@ const json* last_episode_with(const json& report, const std::string& pointer) {
   return nullptr;
 }
 
+/// Whether a prediction is all that the report can show.
+bool is_prediction(const json& report) { return report.value("state", "") == "predicted"; }
+
 std::string sentences(const std::vector<std::string>& parts) {
   std::string text;
   for (const std::string& part : parts) {
@@ -79,6 +82,13 @@ json has_it_converged(const json& report) {
   const std::string state = report.at("state");
   const auto episodes = report.at("episodes").size();
   const json& criteria = report.at("criteria");
+  if (is_prediction(report)) {
+    return entry(
+        question, "This is a prediction",
+        report.at("prediction").at("converged").get<bool>()
+            ? "A steady solution on streamlines; no stage of the campaign was run."
+            : "A steady solution on streamlines was sought and not found; what is shown is the last iteration.");
+  }
   if (state == "converged") {
     return entry(question, fmt::format("Yes, after {} episodes", episodes),
                  fmt::format("All criteria were met in {} episodes on end.", criteria.at("for").get<int>()));
@@ -106,6 +116,18 @@ json where_is_the_zone(const json& report) {
   const std::string question = "Where is the cohesive zone?";
   const json& furnace = report.at("furnace");
   const json* episode = last_episode_with(report, "/cohesive_zone/height_mean");
+  if (episode == nullptr && is_prediction(report)) {
+    const json& zone = report.at("prediction").at("cohesive_zone");
+    if (!number_at(zone, "/height_mean")) {
+      return entry(question, "There is none (prediction)", "No ore is predicted to melt within the bed.");
+    }
+    return entry(
+        question,
+        fmt::format("{:.2f} m on average, {:.2f} to {:.2f} m (prediction)", zone.at("height_mean").get<double>(),
+                    number_at(zone, "/height_min").value_or(NAN), number_at(zone, "/height_max").value_or(NAN)),
+        fmt::format("Predicted height above z = 0 at which the ore has melted ({:.0f} K), over all columns.",
+                    furnace.at("melting_temperature").get<double>()));
+  }
   if (episode == nullptr) {
     const bool tracer_done = last_episode_with(report, "/mean_solid_temperature") != nullptr;
     return tracer_done ? entry(question, "There is none", "No ore reaches its melting temperature within the bed.")
@@ -146,6 +168,17 @@ std::string closure(double residual) {
 json how_sure(const json& report) {
   const std::string question = "How sure is that?";
   std::vector<std::string> parts;
+  if (is_prediction(report)) {
+    const json& prediction = report.at("prediction");
+    parts.emplace_back("A prediction: the bed's motion is a potential flow, not a DEM stage's.");
+    if (const auto heat = number_at(prediction, "/energy_residual")) {
+      parts.push_back(fmt::format("Its heat balance closes to {} of the blast's.", closure(*heat)));
+    }
+    return entry(question,
+                 fmt::format("Temperatures are expected to be {:.0f} % off",
+                             100 * number_at(prediction, "/expected_error").value_or(NAN)),
+                 sentences(parts));
+  }
   std::string answer = "Nothing to judge yet";
   const json* episode = last_episode_with(report, "/change/granular_velocity");
   if (episode == nullptr) {

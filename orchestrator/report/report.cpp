@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "orchestrator/report/json_numbers.hpp"
 #include "orchestrator/report/paraview_views.hpp"
 #include "orchestrator/report/provenance.hpp"
+#include "orchestrator/report/prediction_report.hpp"
 #include "orchestrator/report/report_page.hpp"
 #include "orchestrator/report/stage_report.hpp"
 #include "orchestrator/report/warnings.hpp"
@@ -187,10 +189,16 @@ double wall_seconds_of(const json& episodes) {
 
 json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
   const Campaign& campaign = run.campaign;
-  const auto [state, description] = state_of(run, stages);
+  const std::optional<StageReport> prediction = read_prediction_report(run);
+  const auto [state, description] =
+      stages.empty() && prediction ? std::pair{std::string("predicted"), std::string("a prediction; no stage was run")}
+                                   : state_of(run, stages);
+  // What is drawn of tracer stages is drawn of the prediction too, as episode 0.
+  std::vector<StageReport> drawn = stages;
+  if (prediction) drawn.insert(drawn.begin(), *prediction);
   const json information = run.information;
   const auto readable =
-      std::find_if(stages.rbegin(), stages.rend(), [](const StageReport& stage) { return stage.readable; });
+      std::find_if(drawn.rbegin(), drawn.rend(), [](const StageReport& stage) { return stage.readable; });
   json report = {{"schema", 1},
                  {"campaign", campaign.name},
                  {"state", state},
@@ -204,7 +212,7 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
                  {"file_written", utc_now()},
                  {"run_folder", run.folder.filename().string()},
                  {"campaign_hash", run.campaign_hash},
-                 {"mesh_hash", readable == stages.rend() ? "" : readable->mesh_hash},
+                 {"mesh_hash", readable == drawn.rend() ? "" : readable->mesh_hash},
                  {"criteria",
                   {{"temperature", campaign.converged.temperature},
                    {"cohesive_zone", campaign.converged.cohesive_zone_cells},
@@ -212,16 +220,18 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
                    {"for", campaign.converged.for_episodes},
                    {"at_most", episode_limit(run)}}},
                  {"furnace", furnace_drawing(campaign)},
+                 {"prediction", prediction_entry(prediction)},
                  {"episodes", episodes_of(run, stages)},
                  {"results", results_of(stages)},
                  {"retries", retries_of(run)},
                  {"campaign_text", read_text(run.folder / "campaign.yaml")}};
-  report["wall_seconds"] = wall_seconds_of(report["episodes"]);
+  report["wall_seconds"] =
+      wall_seconds_of(report["episodes"]) + number_at(report["prediction"], "/wall_seconds").value_or(0);
   report["ledger"] = ledger_of(report["episodes"]);
   report["charts"] = {{"dem_history", dem_history(stages)},
                       {"tracer_history", tracer_history(stages)},
-                      {"cohesive_zones", cohesive_zones(stages)},
-                      {"maps", field_maps(stages, campaign)}};
+                      {"cohesive_zones", cohesive_zones(drawn)},
+                      {"maps", field_maps(drawn, campaign)}};
   report["provenance"] = provenance(run, stages);
   report["warnings"] = warnings(report);
   report["answers"] = answers(report);

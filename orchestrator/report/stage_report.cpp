@@ -1,5 +1,7 @@
 #include "orchestrator/report/stage_report.hpp"
 
+#include <algorithm>
+
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 
@@ -23,7 +25,9 @@ nlohmann::json summary_of_progress(const std::filesystem::path& folder) {
   return summary;
 }
 
-void read_result(StageReport& stage, const RunRecord& run) {
+}  // namespace
+
+void read_stage_result(StageReport& stage, const RunRecord& run) {
   try {
     verify_manifest(stage.state.folder);
     const FieldFile file(stage.result(), stage.kind == TaskKind::dem ? "dem-result" : "tracer-result");
@@ -39,8 +43,6 @@ void read_result(StageReport& stage, const RunRecord& run) {
     stage.sentence = failure.what();
   }
 }
-
-}  // namespace
 
 std::string StageReport::state_text() const {
   switch (state.condition) {
@@ -70,14 +72,17 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
     return stage;
   }
   stage.history = read_history(stage.state.folder);
+  const double wall_seconds = wall_seconds_of_stage(run.folder, episode, kind);
   if (stage.state.condition == StageState::Condition::finished) {
-    read_result(stage, run);
+    read_stage_result(stage, run);
   } else {
     stage.summary = summary_of_progress(stage.state.folder);
     if (const auto failure = read_failure(stage.state.folder)) {
       stage.sentence = failure->value("sentence", "");
     }
   }
+  // What failed attempts and lost work have cost counts too.
+  stage.summary["wall_seconds"] = std::max(stage.summary.value("wall_seconds", 0.), wall_seconds);
   return stage;
 }
 

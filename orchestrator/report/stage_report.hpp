@@ -29,6 +29,9 @@ struct StageReport {
 /// `DEM` or `tracer`, for people.
 std::string shown_name(TaskKind kind);
 
+/// Reads the result in the stage's folder: `summary`, or a `sentence` why not.
+void read_stage_result(StageReport& stage, const RunRecord& run);
+
 StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind);
 
 /// All stages that were begun, in the order of the march.

@@ -144,6 +144,9 @@ std::vector<std::string> warnings(const json& report) {
     list.push_back(retry.get<std::string>());
   }
   const json& episodes = report.at("episodes");
+  if (report.value("state", "") == "predicted") {
+    for (const json& sentence : report.at("prediction").at("warnings")) list.push_back(sentence.get<std::string>());
+  }
   for (const json& episode : episodes) {
     add_dem(episode, list);
     add_tracer(episode, list);

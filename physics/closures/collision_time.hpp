@@ -7,6 +7,14 @@ namespace cupola {
 /// Reduced mass of two spheres, kg.
 inline double reduced_mass(double mass_1, double mass_2) { return mass_1 * mass_2 / (mass_1 + mass_2); }
 
+/// Stiffness of a pair of parcels with linear springs, N/m: a parcel's is its coarse graining times the grain's, and
+/// two unequal springs count with their harmonic mean, 2 n1 n2/(n1 + n2) K.  So the overlap over the radius in a
+/// collision at one speed does not depend on the coarse graining.
+/// @param stiffness K of the grain, N/m
+inline double parcel_pair_stiffness(double stiffness, double coarse_graining_1, double coarse_graining_2) {
+  return 2 * coarse_graining_1 * coarse_graining_2 / (coarse_graining_1 + coarse_graining_2) * stiffness;
+}
+
 /// Duration of a head-on collision with a linear spring and dashpot, s: sqrt(pi^2 + ln^2 e) sqrt(m12/K).
 /// @param reduced_mass m12, kg  @param stiffness K, N/m (of the parcels: coarse graining times the grain's)
 /// @param restitution e in (0, 1]

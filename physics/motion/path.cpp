@@ -61,8 +61,11 @@ void check_axes(const BedMesh& mesh, std::int64_t cell, std::size_t side, std::i
 }  // namespace
 
 struct PathField::Exit {
-  Vector3 rate{};         ///< d reference/d tau at the point
-  double pseudo = never;  ///< pseudo-time to the nearest exit
+  Vector3 rate{};                         ///< d reference/d tau at the point
+  Vector3 straight{never, never, never};  ///< pseudo-time to the face ahead at the present rate; never: not reached
+  Vector3 least{never, never, never};     ///< no more than the pseudo-time to the face ahead
+  std::size_t first = 0;                  ///< axis of the smallest of them
+  double pseudo = never;                  ///< pseudo-time to the nearest exit
   std::size_t axis = 0;
   bool upper = false;  ///< through the face at 1
 };
@@ -143,11 +146,8 @@ double PathField::crossing_time(std::int64_t number) const {
   return through > 0 ? cell.storage * mesh_.cell_volume[index(number)] / (through / 2) : never;
 }
 
-PathField::Exit PathField::find_exit(const Cell& cell, const Vector3& reference) const {
+PathField::Exit PathField::look_ahead(const Cell& cell, const Vector3& reference) {
   Exit exit;
-  Vector3 straight{never, never, never};  // pseudo-time at the present rate
-  Vector3 least{never, never, never};     // log(1 + z)/z >= 2/(2 + z): most axes are ruled out without a logarithm
-  std::size_t first = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double change = cell.change[axis];
     const double rate = cell.flux[axis] + change * reference[axis];
@@ -155,21 +155,26 @@ PathField::Exit PathField::find_exit(const Cell& cell, const Vector3& reference)
     // A face whose flux does not lead out is never reached: the path slows down in front of it.
     const bool leads_out = rate > 0 ? cell.flux[axis] + change > 0 : rate < 0 && cell.flux[axis] < 0;
     if (!leads_out) continue;
-    straight[axis] = ((rate > 0 ? 1.0 : 0.0) - reference[axis]) / rate;
-    least[axis] = 2 * straight[axis] / (2 + change * straight[axis]);
-    if (least[axis] < least[first]) first = axis;
+    const double straight = ((rate > 0 ? 1.0 : 0.0) - reference[axis]) / rate;
+    exit.straight[axis] = straight;
+    // log(1 + z)/z >= 2/(2 + z): most axes are ruled out without a logarithm.
+    exit.least[axis] = 2 * straight / (2 + change * straight);
+    if (exit.least[axis] < exit.least[exit.first]) exit.first = axis;
   }
+  return exit;
+}
+
+void PathField::find_exit(const Cell& cell, Exit& exit) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t axis = (first + k) % 3;
-    if (!(least[axis] < exit.pseudo)) continue;
-    const double pseudo = straight[axis] * log1p_over(cell.change[axis] * straight[axis]);
+    const std::size_t axis = (exit.first + k) % 3;
+    if (!(exit.least[axis] < exit.pseudo)) continue;
+    const double pseudo = exit.straight[axis] * log1p_over(cell.change[axis] * exit.straight[axis]);
     if (pseudo < exit.pseudo) {
       exit.pseudo = pseudo;
       exit.axis = axis;
       exit.upper = exit.rate[axis] > 0;
     }
   }
-  return exit;
 }
 
 double PathField::elapsed(std::size_t number, const Vector3& reference, const Vector3& rate, double pseudo) const {
@@ -197,23 +202,33 @@ double PathField::pseudo_time(std::size_t number, const Vector3& reference, cons
   // The elapsed time rises with the pseudo-time at the rate storage |J| > 0: Newton's method with the bracket kept.
   const Cell& cell = cells_[number];
   constexpr int most_iterations = 60;
+  const double here = cell.storage_volume + cell.storage_volume_change * reference[2];
+  double pseudo = seconds / here;
+  if (cell.linear_volume && cell.storage_volume_change == 0) return std::min(pseudo, exit.pseudo);
   double least = 0;
   double most = exit.pseudo;
-  double pseudo = std::min(most, seconds / (cell.storage_volume + cell.storage_volume_change * reference[2]));
+  // To second order, where that is a small correction.
+  const double correction = 0.5 * cell.storage_volume_change * exit.rate[2] * pseudo / here;
+  if (std::abs(correction) < 0.1) pseudo *= 1 - correction;
+  pseudo = std::min(most, pseudo);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const double error = elapsed(number, reference, exit.rate, pseudo) - seconds;
-    (error > 0 ? most : least) = pseudo;
+    double error = 0;
     double volume = 0;
     if (cell.linear_volume) {
-      volume =
-          cell.storage_volume + cell.storage_volume_change * moved(reference[2], exit.rate[2], cell.change[2], pseudo);
+      const double z = cell.change[2] * pseudo;
+      const double curve = expm1_less_linear_over_square(z);
+      const double path = exit.rate[2] * pseudo;
+      error = pseudo * (cell.storage_volume + cell.storage_volume_change * (reference[2] + path * curve)) - seconds;
+      volume = here + cell.storage_volume_change * path * (1 + z * curve);
     } else {
-      Vector3 here{};
+      error = elapsed(number, reference, exit.rate, pseudo) - seconds;
+      Vector3 there{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        here[axis] = moved(reference[axis], exit.rate[axis], cell.change[axis], pseudo);
+        there[axis] = moved(reference[axis], exit.rate[axis], cell.change[axis], pseudo);
       }
-      volume = cell.storage * Hexahedron(mesh_, number).determinant(here);
+      volume = cell.storage * Hexahedron(mesh_, number).determinant(there);
     }
+    (error > 0 ? most : least) = pseudo;
     double next = pseudo - error / volume;
     if (!(next >= least && next <= most)) next = std::isfinite(most) ? (least + most) / 2 : 2 * pseudo;
     // Newton's step squares the error: one smaller than this leaves nothing but round-off.
@@ -224,21 +239,28 @@ double PathField::pseudo_time(std::size_t number, const Vector3& reference, cons
   return pseudo;
 }
 
-PathField::End PathField::advance(Point& point, double seconds, void (*residence)(void*, std::int64_t, double),
-                                  void* context) const {
+template <typename Visit>
+PathField::End PathField::follow(Point& point, double seconds, const Visit& visit) const {
   double left = seconds;
   int idle_crossings = 0;
   while (left > 0) {
     const std::size_t number = index(point.cell);
     const Cell& cell = cells_[number];
-    const Exit exit = find_exit(cell, point.reference);
+    Exit exit = look_ahead(cell, point.reference);
     const bool stands = exit.rate[0] == 0 && exit.rate[1] == 0 && exit.rate[2] == 0;
     if (stands || idle_crossings > most_idle_crossings) {
       fallbacks_ += stands ? 0 : 1;
-      if (residence != nullptr) residence(context, point.cell, left);
+      visit(point.cell, left);
       return End::stagnant;
     }
-    const double to_exit = exit.pseudo < never ? elapsed(number, point.reference, exit.rate, exit.pseudo) : never;
+    double to_exit = never;
+    const double smallest_volume =
+        cell.linear_volume ? cell.storage_volume + std::min(0.0, cell.storage_volume_change) : 0;
+    // Most stays end inside the cell, which shows without a logarithm.
+    if (!(exit.least[exit.first] * smallest_volume > left)) {
+      find_exit(cell, exit);
+      if (exit.pseudo < never) to_exit = elapsed(number, point.reference, exit.rate, exit.pseudo);
+    }
     const bool leaves = to_exit <= left;
     const double pseudo = leaves ? exit.pseudo : pseudo_time(number, point.reference, exit, left);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -246,7 +268,7 @@ PathField::End PathField::advance(Point& point, double seconds, void (*residence
           std::clamp(moved(point.reference[axis], exit.rate[axis], cell.change[axis], pseudo), 0.0, 1.0);
     }
     const double stay = leaves ? to_exit : left;
-    if (residence != nullptr && stay > 0) residence(context, point.cell, stay);
+    if (stay > 0) visit(point.cell, stay);
     if (!leaves) return End::time_up;
     left -= to_exit;
     idle_crossings = to_exit > 0 ? 0 : idle_crossings + 1;
@@ -257,6 +279,25 @@ PathField::End PathField::advance(Point& point, double seconds, void (*residence
     point.reference[exit.axis] = exit.upper ? 0 : 1;
   }
   return End::time_up;
+}
+
+PathField::End PathField::advance(Point& point, double seconds, void (*residence)(void*, std::int64_t, double),
+                                  void* context) const {
+  if (residence == nullptr) return follow(point, seconds, [](std::int64_t, double) {});
+  return follow(point, seconds, [&](std::int64_t cell, double stay) { residence(context, cell, stay); });
+}
+
+PathField::End PathField::advance(Point& point, double seconds, const std::vector<double>& rate,
+                                  double& integral) const {
+  return follow(point, seconds, [&](std::int64_t cell, double stay) { integral += stay * rate[index(cell)]; });
+}
+
+double PathField::lowest(std::int64_t cell) const {
+  double lowest = never;
+  for (const std::int64_t corner : mesh_.cell_points[index(cell)]) {
+    lowest = std::min(lowest, mesh_.points[index(corner)][2]);
+  }
+  return lowest;
 }
 
 }  // namespace cupola

@@ -43,6 +43,13 @@ class PathField {
   End advance(Point& point, double seconds, void (*residence)(void*, std::int64_t, double) = nullptr,
               void* context = nullptr) const;
 
+  /// Moves the point as above and adds the integral of `rate` (a value a cell, 1/s) over the time of the path to
+  /// `integral`.
+  End advance(Point& point, double seconds, const std::vector<double>& rate, double& integral) const;
+
+  /// Height of the lowest corner of a cell, m.
+  [[nodiscard]] double lowest(std::int64_t cell) const;
+
   /// Solids volume of the cell over what flows through it, s: the mean time of a stay. Infinite in a cell without flow.
   [[nodiscard]] double crossing_time(std::int64_t cell) const;
 
@@ -63,7 +70,10 @@ class PathField {
   /// What the rates at a point and the way to the exit are.
   struct Exit;
 
-  [[nodiscard]] Exit find_exit(const Cell& cell, const Vector3& reference) const;
+  template <typename Visit>
+  End follow(Point& point, double seconds, const Visit& visit) const;
+  [[nodiscard]] static Exit look_ahead(const Cell& cell, const Vector3& reference);
+  static void find_exit(const Cell& cell, Exit& exit);
   [[nodiscard]] double elapsed(std::size_t cell, const Vector3& reference, const Vector3& rate, double pseudo) const;
   [[nodiscard]] double pseudo_time(std::size_t cell, const Vector3& reference, const Exit& exit, double seconds) const;
 

@@ -22,8 +22,8 @@ struct SolidsAt {
 SolidsAt solids_at(const Campaign& campaign, double packing, const std::vector<double>& shares, double mass_flux,
                    double viscosity) {
   // The laws see density x speed only through the mass flux.
-  const auto resistance = [&](double diameter, double polydispersity) {
-    return drag_resistance(campaign.drag, 1 - packing, diameter, viscosity, 1, mass_flux, polydispersity);
+  const auto resistance = [&](double diameter, double factor) {
+    return drag_resistance(campaign.drag, 1 - packing, diameter, viscosity, 1, mass_flux, factor);
   };
   SolidsAt result;
   double surface = 0, mean_diameter = 0;
@@ -34,8 +34,10 @@ SolidsAt solids_at(const Campaign& campaign, double packing, const std::vector<d
     mean_diameter += shares[i] * species.diameter;
     if (shares[i] > 0) result.resistance += shares[i] * resistance(species.diameter, 1);
   }
-  if (!charged_in_layers(campaign))
-    result.resistance = resistance(1 / surface, beetstra_polydispersity(mean_diameter * surface));
+  if (!charged_in_layers(campaign)) {
+    const bool beetstra = campaign.drag == DragLaw::beetstra;
+    result.resistance = resistance(1 / surface, beetstra ? beetstra_polydispersity(mean_diameter * surface) : 1);
+  }
   return result;
 }
 

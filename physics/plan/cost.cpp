@@ -15,6 +15,7 @@ Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTime
   cost.fewest_episodes = std::min(cost.most_episodes, 2 + std::max(1, campaign.converged.for_episodes));
   cost.dem_process_seconds = campaign.dem.at_most;
   cost.dem_steps = std::ceil(cost.dem_process_seconds / dem_step.step);
+  cost.dem_blocks = std::max(1., std::ceil(cost.dem_process_seconds / campaign.dem.block));
   cost.dem_core_seconds = cost.dem_steps * parcels / dem_parcel_steps_per_core_second;
   if (gas && campaign.dem.gas != DemSettings::GasModel::none) {
     const double blocks = cost.dem_process_seconds / campaign.dem.block;

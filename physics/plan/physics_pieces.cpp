@@ -33,6 +33,17 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
   piece("gas in the DEM stage", dem_gas,
         dem_gas ? fmt::format("quasi-steady, {} drag, one solution a block", drag_law_name(campaign.drag))
                 : (gas ? "dem.gas is none" : no_gas));
+  const bool filtered = gas && campaign.filtered_drag.has_value();
+  piece("drag of coarse parcels and cells", filtered,
+        !gas ? no_gas
+             : (filtered ? fmt::format("parcel coefficient {}, clusters smaller than a cell {}",
+                                       campaign.filtered_drag->parcel_coefficient,
+                                       campaign.filtered_drag->grid ? "corrected" : "not corrected")
+                         : "filtered_drag is absent"));
+  const bool smoothed = campaign.dem.void_fraction == DemSettings::VoidFraction::smoothed;
+  piece("smoothed void fraction", smoothed,
+        smoothed ? fmt::format("over {} m in the DEM stage", campaign.dem.smoothing_length)
+                 : "dem.void_fraction is divided: parcels are shared out over the cells they lie in");
   piece("gas in the tracer stage", tracer_gas,
         tracer_gas ? fmt::format("Darcy-Forchheimer, {} drag", drag_law_name(campaign.drag))
                    : (gas ? "tracer.gas is none" : no_gas));

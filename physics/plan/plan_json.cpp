@@ -109,7 +109,9 @@ nlohmann::json plan_json(const Plan& plan) {
                     {"ranks", plan.cost.ranks},
                     {"fewest_episodes", plan.cost.fewest_episodes},
                     {"most_episodes", plan.cost.most_episodes},
-                    {"episode_wall_seconds", plan.cost.episode_wall_seconds()}};
+                    {"episode_wall_seconds", plan.cost.episode_wall_seconds()},
+                    {"dem_block_wall_seconds", plan.cost.dem_block_wall_seconds()},
+                    {"tracer_step_wall_seconds", plan.cost.tracer_step_wall_seconds()}};
   result["warnings"] = plan.warnings;
   result["refusals"] = plan.refusals;
   return result;

@@ -106,6 +106,10 @@ void write_cost(Text& text, const Plan& plan) {
   line(text, "  {} to {} episodes: {} to {}", cost.fewest_episodes, cost.most_episodes,
        duration(cost.fewest_episodes * cost.episode_wall_seconds()),
        duration(cost.most_episodes * cost.episode_wall_seconds()));
+  line(text,
+       "  asked to stop, a DEM stage leaves with a checkpoint after a block at most (about {}), a tracer stage after a "
+       "step (about {})",
+       duration(cost.dem_block_wall_seconds()), duration(cost.tracer_step_wall_seconds()));
   line(text, "  (from {:.2g} parcel steps, {:.2g} tracer steps, {:.2g} cells of gas a core second)",
        dem_parcel_steps_per_core_second, 1 / core_seconds_per_tracer_step, 1 / core_seconds_per_gas_solution_of_a_cell);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/closures/drag_beetstra.hpp"
+#include "physics/closures/drag_filtered.hpp"
 #include "physics/equations/cell_failure.hpp"
 
 namespace cupola {
@@ -16,10 +17,27 @@ struct Grains {
   double volume = 0;                 // m3
   double volume_over_diameter = 0;   // m2
   double volume_times_diameter = 0;  // m4
+  double volume_times_graining = 0;  // m3
+  double mass = 0;                   // kg
 
   [[nodiscard]] double sauter_diameter() const { return volume / volume_over_diameter; }
   [[nodiscard]] double mean_size_ratio() const { return volume_times_diameter / volume / sauter_diameter(); }
 };
+
+/// Factor on the drag law at the mean grain.
+double drag_factor(const Campaign& campaign, const Grains& grains, double solids_fraction, double cell_volume) {
+  double factor = 1;
+  if (campaign.drag == DragLaw::beetstra) factor *= beetstra_polydispersity(grains.mean_size_ratio());
+  if (!campaign.filtered_drag || !campaign.scene.gas) return factor;
+  factor *=
+      parcel_drag_correction(campaign.filtered_drag->parcel_coefficient, grains.volume_times_graining / grains.volume);
+  if (campaign.filtered_drag->grid) {
+    const double size = filter_size(std::cbrt(cell_volume), grains.sauter_diameter(), grains.mass / grains.volume,
+                                    campaign.scene.gas->viscosity);
+    factor *= grid_drag_correction(size, solids_fraction);
+  }
+  return factor;
+}
 
 }  // namespace
 
@@ -44,7 +62,7 @@ BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
   BedState bed;
   bed.void_fraction.resize(mesh.cells());
   bed.grain_diameter.assign(mesh.cells(), largest_diameter);
-  bed.polydispersity.assign(mesh.cells(), 1);
+  bed.drag_factor.assign(mesh.cells(), 1);
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     Grains grains;
     for (std::size_t species = 0; species < campaign.species.size(); ++species) {
@@ -56,6 +74,8 @@ BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
       grains.volume += volume;
       grains.volume_over_diameter += volume / diameter;
       grains.volume_times_diameter += volume * diameter;
+      grains.volume_times_graining += volume * campaign.species[species].coarse_graining;
+      grains.mass += volume * campaign.species[species].density;
     }
     bed.void_fraction[cell] = 1 - grains.volume / mesh.cell_volume[cell];
     if (bed.void_fraction[cell] < least_void_fraction) {
@@ -64,8 +84,7 @@ BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
     }
     if (grains.volume > 0) {
       bed.grain_diameter[cell] = grains.sauter_diameter();
-      if (campaign.drag == DragLaw::beetstra)
-        bed.polydispersity[cell] = beetstra_polydispersity(grains.mean_size_ratio());
+      bed.drag_factor[cell] = drag_factor(campaign, grains, 1 - bed.void_fraction[cell], mesh.cell_volume[cell]);
     }
   }
   for (const auto& raceway : campaign.raceways) {

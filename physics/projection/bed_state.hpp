@@ -12,7 +12,7 @@ struct BedState {
   std::vector<double>
       void_fraction;  ///< of the gas: 1 - material volume fraction, with the floor and the raceways' minimum
   std::vector<double> grain_diameter;  ///< m, Sauter mean of the unsoftened grains; the largest species' in empty cells
-  std::vector<double> polydispersity;  ///< factor of the drag law on the mean grain (1 for one species; see closures)
+  std::vector<double> drag_factor;     ///< on the drag law at the mean grain: mixtures with Beetstra, `filtered_drag`
   std::int64_t cells_at_floor =
       0;  ///< cells denser than the floor of the void fraction: a limit of the model, to be reported
 };
@@ -21,7 +21,7 @@ struct BedState {
 /// otherwise.
 inline constexpr double least_void_fraction = 0.10;
 
-/// Void fraction, Sauter diameter and polydispersity from the material volume of each species in each cell.
+/// Void fraction, Sauter diameter and the factor on the drag law from the material volume of each species in each cell.
 ///   void = 1 - sum_i V_i / V_cell, at least `least_void_fraction` (MODEL 5), in raceways at least theirs (MODEL 6),
 ///   1/d = sum_i (V_i/d_i) / sum_i V_i.
 /// @param species_volume m3, [species][cell], species in the campaign's order

@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "physics/mesh/bed_mesh.hpp"
+#include "physics/projection/cells_of_rank.hpp"
 
 namespace cupola {
 
@@ -17,27 +19,38 @@ class CellSpreading {
  public:
   /// @param confined_to cells that take part (the bed); elsewhere W is the identity. Empty: all cells.
   /// @param diameter of the sphere whose variance the kernel has, m
-  CellSpreading(const BedMesh& mesh, const std::vector<bool>& confined_to, double diameter);
+  /// @param share the ranks' shares of the work; by default this rank does all of it
+  CellSpreading(const BedMesh& mesh, const std::vector<bool>& confined_to, double diameter, CellsOfRank share = {});
 
   /// W applied to extensive sums (volume, heat capacity, conductance a cell), in place; the total is unchanged.
-  void apply(std::vector<double>& sums) const;
+  void apply(std::vector<double>& sums) const { apply({&sums}); }
+  /// The same for several arrays together, which costs less than one after the other.
+  void apply(const std::vector<std::vector<double>*>& sums) const;
   /// The transpose applied to intensive cell values: result_j = sum_c W_cj value_c, in place.
-  void gather(std::vector<double>& values) const;
+  void gather(std::vector<double>& values) const { gather({&values}); }
+  void gather(const std::vector<std::vector<double>*>& values) const;
   /// Weighted mean as a tracer in each cell sees it: sum_c W_cj w_c v_c / sum_c W_cj w_c; v_j where no weight reaches
   /// it.
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& values, const std::vector<double>& weights) const;
 
   [[nodiscard]] int passes() const { return passes_; }
+  [[nodiscard]] const CellsOfRank& share() const { return share_; }
 
  private:
-  struct Exchange {
-    std::int64_t first, second;  ///< cells
-    double conductance;          ///< tau A/d of one pass, m3
+  /// What a cell exchanges with its neighbours in one pass; unused places name the cell itself, with 0.
+  struct Neighbours {
+    std::array<std::int32_t, 6> cell{};
+    std::array<double, 6> conductance{};  ///< tau A/d of one pass, m3
+    double kept = 1;                      ///< part of the cell's own value that stays
   };
-  std::vector<Exchange> exchanges_;
+  template <bool spreads>
+  void pass(const std::vector<std::vector<double>*>& arrays) const;
+
+  std::vector<Neighbours> neighbours_;
   std::vector<double> inverse_volume_;
   int passes_ = 0;
-  mutable std::vector<double> work_;
+  CellsOfRank share_;
+  mutable std::vector<double> work_;  ///< cells x arrays
 };
 
 }  // namespace cupola

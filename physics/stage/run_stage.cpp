@@ -55,6 +55,8 @@ int run_stage(const std::filesystem::path& task_folder, const std::function<Exit
     return static_cast<int>(stage());
   } catch (const Failure& failure) {
     return report(task_folder, failure);
+  } catch (const std::filesystem::filesystem_error& problem) {
+    return report(task_folder, Failure(ExitCode::input_output, problem.what()).at("file", problem.path1().string()));
   } catch (const std::exception& problem) {
     return report(task_folder,
                   Failure(ExitCode::diverged, std::string("the stage ended unexpectedly: ") + problem.what()));

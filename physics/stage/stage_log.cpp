@@ -4,14 +4,20 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <cstdlib>
+
 #include "schemas/failure.hpp"
 
 namespace cupola {
 
 void open_stage_log(const std::filesystem::path& task_folder, int rank) {
-  auto console = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  console->set_level(rank == 0 ? spdlog::level::warn : spdlog::level::err);
-  std::vector<spdlog::sink_ptr> sinks{console};
+  // The orchestrator sends standard error to stage.log as well: what rank 0 says must not stand there twice.
+  const bool error_goes_to_log = std::getenv(stderr_goes_to_log) != nullptr;
+  std::vector<spdlog::sink_ptr> sinks;
+  if (rank != 0 || !error_goes_to_log) {
+    sinks.push_back(std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    sinks.back()->set_level(rank == 0 ? spdlog::level::warn : spdlog::level::err);
+  }
   if (rank == 0) {
     try {
       sinks.push_back(std::make_shared<spdlog::sinks::basic_file_sink_mt>((task_folder / "stage.log").string()));

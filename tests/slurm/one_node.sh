@@ -80,7 +80,14 @@ EOF
 
 stop_slurm() {
   local file process ended=()
-  [[ -n ${SLURM_CONF:-} ]] && scancel --quiet --user="$(id -un)" 2> /dev/null
+  if [[ -n ${SLURM_CONF:-} ]]; then
+    scancel --quiet --user="$(id -un)" 2> /dev/null
+    # Without its controller a job would never be cleared away.
+    for ((tenths = 0; tenths < 300; ++tenths)); do
+      [[ -z $(squeue --noheader 2> /dev/null) ]] && break
+      sleep 0.1
+    done
+  fi
   for file in "${slurm_folder:-/nonexistent}"/{slurmd,slurmctld}.pid "${munge_folder:-/nonexistent}/munged.pid"; do
     [[ -f $file ]] || continue
     process=$(cat "$file")

@@ -48,7 +48,7 @@ inline BedState uniform_bed(const BedMesh& mesh, double void_fraction, double gr
   BedState bed;
   bed.void_fraction.assign(mesh.cells(), void_fraction);
   bed.grain_diameter.assign(mesh.cells(), grain_diameter);
-  bed.polydispersity.assign(mesh.cells(), 1);
+  bed.drag_factor.assign(mesh.cells(), 1);
   return bed;
 }
 

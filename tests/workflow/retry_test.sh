@@ -21,7 +21,7 @@ diverges_in() {
   cat > "$work/bin/cupola-dem" << END
 #!/bin/sh
 case "\$*" in
-prepare*) ;;
+prepare* | --versions) ;;
 $1)
   echo '{"code": 70, "sentence": "overlap too large", "where": {"step": "12"}, "advice": {"dem.time_step": "1e-4"}}' > "\$1/failure.json"
   exit 70 ;;
@@ -53,4 +53,30 @@ diverges_in 'never'
 [[ $? == 75 ]] || fail "the attempt after it works must go on"
 grep -q 'tried again with dem.time_step = 1e-4' "$run/report/report.json" || fail "the report does not mention the retry"
 grep -q 'time_step: 0.0001' "$run/episodes/001/dem/attempt-4/task.yaml" || fail "the change was not kept"
+# A stage that diverges in its middle goes on from its last good checkpoint.
+cat > "$work/bin/cupola-dem" << END
+#!/bin/sh
+case "\$*" in
+prepare* | --versions) ;;
+*001/dem/attempt-1)
+  CUPOLA_CHECKPOINT_SECONDS=0 $programs/cupola-dem "\$1" &
+  until [ -f "\$1/checkpoint-B.hash" ]; do sleep 0.05; done
+  kill -KILL \$!
+  wait
+  echo '{"code": 70, "sentence": "overlap too large", "where": {"step": "12"}, "advice": {"dem.time_step": "1e-4"}}' > "\$1/failure.json"
+  exit 70 ;;
+esac
+exec $programs/cupola-dem "\$@"
+END
+middle=$work/middle
+"$work/bin/cupola" run "$work/campaign.yaml" --run-dir "$middle" --until-episode 1 > "$work/out" 2>&1
+[[ $? == 75 ]] || fail "a stage that diverged in its middle must go on"
+grep -q 'tried again from its checkpoint at step [0-9]*, with dem.time_step = 1e-4' "$work/out" || fail "that it goes on from the checkpoint is not said"
+grep -q 'going on from the checkpoint' "$middle/episodes/001/dem/attempt-2/stage.log" || fail "the checkpoint was not taken over"
+[[ -f $middle/episodes/001/dem/attempt-1/checkpoint-B.h5 ]] || fail "what the first attempt left is gone"
+node -e '
+  const lines = require("fs").readFileSync(process.argv[1], "utf8").trim().split("\n").map((line) => JSON.parse(line));
+  if (lines.some((line, i) => i > 0 && line.time <= lines[i - 1].time)) process.exit(1);
+' "$middle/episodes/001/dem/attempt-2/history.jsonl" || fail "the history of the retry has holes or repeats"
+"$work/bin/cupola" verify "$middle" > "$work/out" 2>&1 || fail "verify of a retried run"
 echo "retries, refusals and the report of them are as promised"

@@ -173,6 +173,32 @@ TEST(Charging, BatchesAreExactOverTime) {
   }
 }
 
+TEST(Charging, ALayerWithARingIsPouredIntoIt) {
+  Campaign campaign = furnace();
+  campaign.charging.layers = {{{"coke", 30.0}}, {{"ore", 20.0}}};
+  campaign.charging.rings = {std::nullopt, std::array<double, 2>{0.2, 0.35}};
+  BatchCharging charging(campaign);
+  std::int64_t next_id = 1;
+  int coke_in_the_middle = 0;
+  int ore = 0;
+  double time = 0;
+  for (int batch = 0; batch < 6; ++batch, time += 10) {
+    for (int turn = 0; turn == 0 || charging.state().owed[0] + charging.state().owed[1] > 0; ++turn) {
+      ASSERT_LT(turn, 100);
+      for (const Parcel& parcel : charging.pour({}, 0.5, time, 1, next_id)) {
+        if (parcel.species == 0 && std::abs(parcel.position[0]) < 0.2) ++coke_in_the_middle;
+        if (parcel.species != 1) continue;
+        ++ore;
+        EXPECT_GE(std::abs(parcel.position[0]), 0.2);
+        EXPECT_LE(std::abs(parcel.position[0]), 0.35);
+      }
+    }
+    charging.see_landed({});
+  }
+  EXPECT_GT(ore, 0);
+  EXPECT_GT(coke_in_the_middle, 0);  // the other layer covers the whole width
+}
+
 TEST(Charging, ABatchTooLargeForTheRoomIsRefused) {
   Campaign campaign = furnace();
   campaign.charging.layers.push_back({{"ore", 5000.0}});

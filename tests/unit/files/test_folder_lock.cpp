@@ -1,9 +1,12 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <thread>
 
 #include "raw_files.hpp"
 #include "schemas/files.hpp"
@@ -69,6 +72,60 @@ TEST(FolderLock, IsNotInheritedByProgramsItStarts) {
   EXPECT_NO_THROW(FolderLock(folder.path()));
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
+}
+
+/// What another host of a shared file system leaves in the folder, its last sign of life so long ago.
+void held_elsewhere(const std::filesystem::path& folder, std::chrono::seconds ago) {
+  test::write_raw(folder / "lock", R"({"host":"node-17","pid":4711,"since":"2026-11-22T01:02:03Z"})");
+  std::filesystem::last_write_time(folder / "lock", std::filesystem::file_time_type::clock::now() - ago);
+}
+
+TEST(FolderLock, OfAnotherHostCountsWhileItGivesSignsOfLife) {
+  const TemporaryFolder folder;
+  held_elsewhere(folder.path(), sign_of_life_every);
+  const Failure failure = failure_of([&] { FolderLock(folder.path()); });
+  EXPECT_EQ(failure.code(), ExitCode::held);
+  EXPECT_THAT(failure.what(), HasSubstr("process 4711 on node-17 since 2026-11-22T01:02:03Z"));
+  EXPECT_THAT(FolderLock::holder(folder.path()).value(), HasSubstr("node-17"));
+  // A clock that was put back: the sign of life lies ahead.
+  held_elsewhere(folder.path(), -std::chrono::hours(2));
+  EXPECT_EQ(failure_of([&] { FolderLock(folder.path()); }).code(), ExitCode::held);
+}
+
+TEST(FolderLock, OfAHostThatCrashedIsTaken) {
+  const TemporaryFolder folder;
+  held_elsewhere(folder.path(), dead_after_silence + std::chrono::seconds(2));
+  EXPECT_FALSE(FolderLock::holder(folder.path()));
+  const FolderLock lock(folder.path());
+  EXPECT_THAT(FolderLock::holder(folder.path()).value(), HasSubstr("process " + std::to_string(::getpid())));
+}
+
+/// A file server that still keeps the kernel's lock of a host that crashed.
+TEST(FolderLock, OfAHostThatCrashedIsTakenAlsoWhereTheServerKeepsIt) {
+  const TemporaryFolder folder;
+  held_elsewhere(folder.path(), dead_after_silence + std::chrono::seconds(2));
+  const int server = ::open((folder.path() / "lock").c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_EQ(::flock(server, LOCK_EX), 0);
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_EQ(failure_of([&] { FolderLock(folder.path()); }).code(), ExitCode::held);
+  }
+  ::close(server);
+}
+
+TEST(FolderLock, GivenBackSaysNothingOfItsHolder) {
+  const TemporaryFolder folder;
+  { const FolderLock lock(folder.path()); }
+  EXPECT_EQ(test::raw_bytes(folder.path() / "lock"), "");
+}
+
+TEST(FolderLock, GivesSignsOfLife) {
+  const TemporaryFolder folder;
+  const FolderLock lock(folder.path());
+  held_elsewhere(folder.path(), std::chrono::hours(1));
+  const auto before = std::filesystem::last_write_time(folder.path() / "lock");
+  std::this_thread::sleep_for(sign_of_life_every + std::chrono::seconds(1));
+  EXPECT_GT(std::filesystem::last_write_time(folder.path() / "lock"), before);
 }
 
 }  // namespace

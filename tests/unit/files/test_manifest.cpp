@@ -55,6 +55,23 @@ TEST_F(Manifest, OneFlippedBitIsFound) {
   }
 }
 
+TEST_F(Manifest, OneFlippedBitOfItselfIsFound) {
+  const std::string content = test::raw_bytes(folder.path() / "manifest.json");
+  for (std::size_t i = 0; i < 8 * content.size(); ++i) {
+    std::string flipped = content;
+    flipped[i / 8] = static_cast<char>(flipped[i / 8] ^ (1 << (i % 8)));
+    test::write_raw(folder.path() / "manifest.json", flipped);
+    EXPECT_THAT(failure_of([&] { verify_manifest(folder.path()); }).what(), HasSubstr("manifest.json: damaged"));
+  }
+}
+
+TEST_F(Manifest, AllThatDiffersIsListed) {
+  EXPECT_TRUE(manifest_problems(folder.path()).empty());
+  test::write_raw(folder.path() / "result.hdf", "x");
+  std::filesystem::remove(folder.path() / "task.yaml");
+  EXPECT_EQ(manifest_problems(folder.path()).size(), 2U);
+}
+
 TEST_F(Manifest, AMissingOrTruncatedFileIsFound) {
   test::write_raw(folder.path() / "result.hdf", "content");
   EXPECT_THAT(failure_of([&] { verify_manifest(folder.path()); }).what(), HasSubstr("result.hdf: another size"));

@@ -95,5 +95,26 @@ TEST(FailureFile, SaysWhereAndWhatToChange) {
   EXPECT_EQ(read.at("advice").at("dem.time_step"), "5e-6");
 }
 
+TEST(SealedJson, AnyFlippedBitIsFound) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "sealed.json";
+  write_sealed_json(file, {{"name", "ofen \u00df"}, {"number", 0.1}, {"list", {1, 2}}});
+  EXPECT_EQ(read_sealed_json(file).at("number"), 0.1);
+  EXPECT_FALSE(read_sealed_json(file).contains("hash"));
+  const std::string content = test::raw_bytes(file);
+  for (std::size_t i = 0; i < 8 * content.size(); ++i) {
+    std::string flipped = content;
+    flipped[i / 8] = static_cast<char>(flipped[i / 8] ^ (1 << (i % 8)));
+    test::write_raw(file, flipped);
+    EXPECT_EQ(test::failure_of([&] { read_sealed_json(file); }).code(), ExitCode::input_output) << flipped;
+  }
+}
+
+TEST(SmallFiles, AFailureWrittenByHandNeedsNoSeal) {
+  const TemporaryFolder folder;
+  test::write_raw(folder.path() / "failure.json", R"({"code": 70, "sentence": "overlap"})");
+  EXPECT_EQ(read_failure(folder.path()).value().at("sentence"), "overlap");
+}
+
 }  // namespace
 }  // namespace cupola

@@ -104,6 +104,18 @@ TEST(RunFolder, ChangedAfterItBeganIsRefused) {
   }
 }
 
+TEST(RunFolder, WithAChangedInformationFileIsRefused) {
+  const TemporaryFolder folder;
+  RunFolder::for_campaign(tiny, folder.path() / "run");
+  const std::string text = cupola::read_text(folder.path() / "run/run.json");
+  for (std::size_t i = 0; i < text.size(); i += 7) {
+    std::string flipped = text;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    std::ofstream(folder.path() / "run/run.json") << flipped;
+    EXPECT_EQ(failure_of([&] { RunFolder::open(folder.path() / "run"); }).code(), ExitCode::input_output);
+  }
+}
+
 TEST(RunFolder, WithAnotherCampaignsJournalIsRefused) {
   const TemporaryFolder folder;
   RunFolder::for_campaign(tiny, folder.path() / "one");

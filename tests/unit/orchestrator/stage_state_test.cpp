@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "orchestrator/prepared_case.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/stage_task.hpp"
 #include "schemas/campaign_reader.hpp"
@@ -144,6 +145,54 @@ TEST_F(TaskFolder, OfAnotherCampaignIsRefusedAndKept) {
   const std::string before = cupola::read_text(folder_ / "task.yaml");
   EXPECT_THROW(cupola::ensure_task(folder_, task("xxh3:b")), Failure);
   EXPECT_EQ(cupola::read_text(folder_ / "task.yaml"), before);
+}
+
+TEST_F(TaskFolder, WhoseTaskIsNotTheOneTheJournalKnowsIsRefused) {
+  cupola::ensure_task(folder_, task("xxh3:a"));
+  const std::string hash = cupola::hash_file(folder_ / "task.yaml");
+  cupola::ensure_task(folder_, task("xxh3:a"), hash);
+  const std::string text = cupola::read_text(folder_ / "task.yaml");
+  for (std::size_t i = 0; i < text.size(); i += 101) {
+    std::string flipped = text;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    std::ofstream(folder_ / "task.yaml") << flipped;
+    EXPECT_THROW(cupola::ensure_task(folder_, task("xxh3:a"), hash), Failure);
+  }
+  std::filesystem::remove(folder_ / "task.yaml");
+  EXPECT_THROW(cupola::ensure_task(folder_, task("xxh3:a"), hash), Failure);
+}
+
+TEST_F(TaskFolder, IsKnownByItsCase) {
+  std::filesystem::create_directories(folder_ / "foam/constant");
+  std::ofstream(folder_ / "foam/constant/points") << "0 0 0";
+  std::ofstream(folder_ / "foam/log.blockMesh") << "today";
+  const auto condition = [&](const std::vector<json>& journal, int ranks) {
+    return cupola::case_condition(journal, 2, TaskKind::dem, 1, folder_, ranks);
+  };
+  EXPECT_EQ(condition({}, 2), cupola::CaseCondition::missing);
+  json prepared = record("stage-prepared", 1);
+  prepared["ranks"] = 2;
+  prepared["case_hash"] = cupola::case_fingerprint(folder_ / "foam");
+  std::ofstream(folder_ / "foam/log.blockMesh") << "tomorrow";
+  EXPECT_EQ(condition({prepared}, 2), cupola::CaseCondition::ready);
+  EXPECT_EQ(condition({prepared}, 3), cupola::CaseCondition::missing) << "for another number of ranks";
+  std::ofstream(folder_ / "foam/constant/points") << "0 0 1";
+  EXPECT_EQ(condition({prepared}, 2), cupola::CaseCondition::damaged);
+}
+
+TEST(StageState, CountsTheWallTimeOfAllAttempts) {
+  const TemporaryFolder run;
+  for (const int attempt : {1, 2}) {
+    cupola::Progress progress;
+    progress.wall_seconds = 10. * attempt;
+    cupola::write_progress(begun(run, attempt), progress);
+  }
+  EXPECT_EQ(cupola::wall_seconds_of_stage(run.path(), 2, TaskKind::dem), 30.);
+}
+
+TEST(RanksInForce, AreTheCampaignsUntilToldOtherwise) {
+  EXPECT_EQ(cupola::ranks_in_force({}, 4), 4);
+  EXPECT_EQ(cupola::ranks_in_force({{{"event", "ranks-changed"}, {"ranks", 2}}, {{"event", "x"}}}, 4), 2);
 }
 
 TEST_F(TaskFolder, WhoseInputWasSwappedIsRefused) {

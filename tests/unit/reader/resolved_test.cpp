@@ -72,6 +72,37 @@ TEST(ResolvedCampaign, KeepsRingsAndTheStopOfTheTracerStage) {
   EXPECT_EQ(resolved_json(read(resolved_yaml(campaign))), resolved_json(campaign));
 }
 
+TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
+  auto campaign = read(test::base_campaign);
+  EXPECT_FALSE(campaign.filtered_drag);
+  EXPECT_EQ(campaign.dem.void_fraction, DemSettings::VoidFraction::divided);
+  EXPECT_DOUBLE_EQ(campaign.dem.smoothing_length, 0.176);  // the largest parcel
+  EXPECT_EQ(campaign.raceways[0].removal, Raceway::Removal::rate);
+  EXPECT_GT(campaign.dem.limits.overlap, 0.15);  // the paper's own contacts are within the limits
+  EXPECT_GT(campaign.dem.limits.wall_overlap, 0.42);
+
+  campaign.drag = DragLaw::emms;
+  campaign.filtered_drag = FilteredDrag{0.03, false};
+  campaign.contacts.model = Contacts::Model::linear_spring;
+  campaign.contacts.stiffness = 1e4;
+  campaign.contacts.tangential_ratio = 0.5;
+  campaign.dem.void_fraction = DemSettings::VoidFraction::smoothed;
+  campaign.dem.smoothing_length = 0.3;
+  campaign.dem.limits = {0.2, 0.5, 0.1};
+  campaign.raceways[0].removal = Raceway::Removal::keep_void;
+  const auto again = read(resolved_yaml(campaign));
+  EXPECT_EQ(resolved_json(again), resolved_json(campaign));
+  EXPECT_EQ(again.drag, DragLaw::emms);
+  EXPECT_EQ(again.filtered_drag->parcel_coefficient, 0.03);
+  EXPECT_FALSE(again.filtered_drag->grid);
+  EXPECT_EQ(again.contacts.tangential_ratio, 0.5);
+  EXPECT_EQ(again.dem.void_fraction, DemSettings::VoidFraction::smoothed);
+  EXPECT_EQ(again.dem.smoothing_length, 0.3);
+  EXPECT_EQ(again.dem.limits.wall_overlap, 0.5);
+  EXPECT_EQ(again.dem.limits.creep, 0.1);
+  EXPECT_EQ(again.raceways[0].removal, Raceway::Removal::keep_void);
+}
+
 TEST(ResolvedCampaign, KeepsTheOrderOfSpecies) {
   auto campaign = read(test::base_campaign);
   std::swap(campaign.species[0], campaign.species[1]);

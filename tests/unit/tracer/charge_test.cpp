@@ -54,6 +54,38 @@ TEST(ChargePlan, RefusesAnEmptyRecipe) {
   EXPECT_THROW(ChargePlan(campaign, 0.01, 0), Failure);
 }
 
+/// Three places: the middle, a ring, the wall; the second layer lies in the ring alone.
+TEST(ChargePlan, RingsKeepTheMassOfEachLayerAndTheFlowOfEachPlace) {
+  Campaign campaign = two_layers();
+  campaign.charging.rings = {std::nullopt, std::array<double, 2>{0.5, 1.0}};
+  const std::vector<ChargePlan::Place> places = {{0.2, 0.004}, {0.7, 0.0045}, {0.8, 0.0005}, {1.1, 0.001}};
+  const ChargePlan plan(campaign, 0.01, 0, places);
+  EXPECT_EQ(plan.zones(), 2U);  // in the ring or not
+  EXPECT_EQ(plan.zone_of_place(), (std::vector<std::size_t>{0, 1, 1, 0}));
+  EXPECT_DOUBLE_EQ(plan.cycle_seconds(), 50);
+  std::vector<double> layer(2, 0.0);
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const std::size_t zone = plan.zone_of_place()[place];
+    double seconds = 0;
+    for (const auto& piece : plan.pieces(0, 50, zone)) {
+      layer[piece.layer] += places[place].volume_rate * (piece.to - piece.from);
+      seconds += piece.to - piece.from;
+      if (zone == 0) EXPECT_EQ(piece.layer, 0U);
+    }
+    EXPECT_NEAR(seconds, 50, 1e-9);  // a place is never idle: the surface stays level
+  }
+  EXPECT_NEAR(layer[0], 0.3, 1e-9);
+  EXPECT_NEAR(layer[1], 0.2, 1e-9);
+}
+
+TEST(ChargePlan, RefusesARingThatCannotTakeItsLayerAndOneWithoutAPlace) {
+  Campaign campaign = two_layers();
+  campaign.charging.rings = {std::nullopt, std::array<double, 2>{0.5, 1.0}};
+  // The second layer is two fifths of the charge, the ring takes only a tenth of the flow.
+  EXPECT_THROW(ChargePlan(campaign, 0.01, 0, {{0.2, 0.009}, {0.7, 0.001}}), Failure);
+  EXPECT_THROW(ChargePlan(campaign, 0.01, 0, {{0.2, 0.009}, {1.2, 0.001}}), Failure);
+}
+
 class InsertionTest : public ::testing::Test {
  protected:
   InsertionTest() : mesh_(make_mesh()), plan_(two_layers(), 0.01, 0) {

@@ -83,9 +83,47 @@ TEST_F(TracersTest, SeedingKeepsTheVolumeAndIsTheSameOnAnyNumberOfRanks) {
     rows.insert(rows.end(), part.begin(), part.end());
   }
   const Tracers joined = from_rows(rows, false, 0, 1);
-  ASSERT_EQ(joined.id, all.id);
-  EXPECT_EQ(joined.life, all.life);
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(joined.point[i].reference, all.point[i].reference);
+  ASSERT_EQ(joined.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto j =
+        static_cast<std::size_t>(std::find(joined.id.begin(), joined.id.end(), all.id[i]) - joined.id.begin());
+    ASSERT_LT(j, joined.size());
+    EXPECT_EQ(joined.life[j], all.life[i]);
+    EXPECT_EQ(joined.point[j].reference, all.point[i].reference);
+  }
+}
+
+TEST_F(TracersTest, SortingByCellKeepsEachTracerTogetherAndTheOrderWithinACell) {
+  Tracers tracers;
+  for (std::int64_t id = 0; id < 500; ++id) {
+    tracers.add(id, static_cast<std::uint8_t>(id % 2), {(id * 37) % 11, {0.001 * static_cast<double>(id), 0.5, 0.5}},
+                1e-3 * static_cast<double>(id), 1.0 + static_cast<double>(id));
+    tracers.temperature.push_back(300 + static_cast<double>(id));
+  }
+  tracers.sort_by_cell(mesh_.cells());
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const auto id = static_cast<double>(tracers.id[i]);
+    EXPECT_EQ(tracers.point[i].cell, (tracers.id[i] * 37) % 11);
+    EXPECT_EQ(tracers.point[i].reference[0], 0.001 * id);
+    EXPECT_EQ(tracers.volume[i], 1e-3 * id);
+    EXPECT_EQ(tracers.life[i], 1 + id);
+    EXPECT_EQ(tracers.temperature[i], 300 + id);
+    if (i > 0 && tracers.point[i].cell == tracers.point[i - 1].cell) EXPECT_GT(tracers.id[i], tracers.id[i - 1]);
+    if (i > 0) EXPECT_GE(tracers.point[i].cell, tracers.point[i - 1].cell);
+  }
+}
+
+TEST_F(TracersTest, TracersAreDealtOutEvenlyHoweverParcelsAreSplit) {
+  for (const int split : {1, 2, 5}) {
+    for (const int ranks : {2, 3}) {
+      std::vector<int> count(static_cast<std::size_t>(ranks), 0);
+      for (std::int64_t parcel = 7; parcel < 307; ++parcel) {
+        for (int j = 0; j < split; ++j)
+          ++count[static_cast<std::size_t>(rank_of(parcel * tracer_ids_per_parcel + j, ranks))];
+      }
+      EXPECT_LE(*std::max_element(count.begin(), count.end()) - *std::min_element(count.begin(), count.end()), split);
+    }
+  }
 }
 
 TEST_F(TracersTest, SeedingNeedsAParcelInTheBed) {
@@ -160,6 +198,89 @@ TEST_F(TracersTest, DisplacementSpreadsAnExcessAndNeverLeavesTheBed) {
     }
   }
   EXPECT_LT(densest, 0.6);  // from 2.5 in one cell towards 0.5
+}
+
+TEST_F(TracersTest, RelaxationFollowsTheGradientOfTheExcessAndKeepsToItsLimit) {
+  // The lower half holds more than the packing, the upper less; reach sqrt(D0 dt) much smaller than a cell.
+  TracerSettings settings;
+  settings.relaxation_coefficient = 1e-6;
+  settings.relaxation_limit = 1;
+  const std::vector<double> target(mesh_.cells(), 0.5);
+  std::vector<double> volume(mesh_.cells());
+  const auto packed = [](double z) { return 0.6 - 0.1 * z; };
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) volume[c] = packed(mesh_.cell_centre[c][2]) * mesh_.cell_volume[c];
+  auto way = relaxation(mesh_, bed_, volume, target, settings, 1);
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    const double z = mesh_.cell_centre[c][2];
+    if (z < 0.25 || z > 1.15) continue;  // away from the ends of the bed
+    EXPECT_NEAR(way[c][0], 0, 1e-12);
+    EXPECT_NEAR(way[c][1], 0, 1e-12);
+    EXPECT_NEAR(way[c][2], 1e-6 * 0.1 / packed(z), 1e-9);  // upwards, to where there is room
+  }
+  settings.relaxation_limit = 5e-8;
+  way = relaxation(mesh_, bed_, volume, target, settings, 1);
+  for (const Vector3& step : way) EXPECT_LE(std::hypot(step[0], step[1], step[2]), 5e-8 * (1 + 1e-12));
+  const std::vector<bool> nowhere(mesh_.cells(), false);
+  for (const Vector3& step : relaxation(mesh_, nowhere, volume, target, settings, 1)) EXPECT_EQ(step, Vector3{});
+}
+
+TEST_F(TracersTest, RelaxationAloneEvensOutAnExcess) {
+  const CellLocator locator(mesh_);
+  const PathField paths(mesh_, std::vector<double>(mesh_.faces(), 0.0), std::vector<double>(mesh_.cells(), 1.0));
+  // A uniform bed in which the tracers of the upper half carry a fifth more.
+  Tracers tracers;
+  std::int64_t id = 0;
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    if (!bed_[c]) continue;
+    for (int k = 0; k < 27; ++k) {
+      const Vector3 at{(k % 3 + 0.5) / 3, (k / 3 % 3 + 0.5) / 3, (k / 9 + 0.5) / 3};
+      tracers.add(id++, 0, {static_cast<std::int64_t>(c), at},
+                  0.5 / 27 * mesh_.cell_volume[c] * (mesh_.cell_centre[c][2] > 0.7 ? 1.1 : 0.9), 1);
+    }
+  }
+  TracerSettings settings;
+  const std::vector<double> target(mesh_.cells(), 0.5);
+  const std::vector<double> no_excess(mesh_.cells(), 0.0);
+  const auto unevenness = [&] {
+    const CellContents contents = sum_tracers(tracers, 1, mesh_.cells(), false, [](std::vector<double>&) {});
+    std::vector<double> layer(7, 0.0);
+    for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+      if (bed_[c]) layer[static_cast<std::size_t>(mesh_.cell_centre[c][2] / 0.2)] += contents.volume[0][c];
+    }
+    const auto [least, most] = std::minmax_element(layer.begin(), layer.end());
+    return *most / *least - 1;
+  };
+  const double before = unevenness();
+  for (long step = 0; step < 400; ++step) {
+    const CellContents contents = sum_tracers(tracers, 1, mesh_.cells(), false, [](std::vector<double>&) {});
+    displace(tracers, settings, locator, paths, bed_, no_excess, 0.25, 11, step,
+             relaxation(mesh_, bed_, contents.volume[0], target, settings, 0.25));
+  }
+  EXPECT_NEAR(before, 1.1 / 0.9 - 1, 1e-9);
+  EXPECT_LT(unevenness(), 0.5 * before);
+}
+
+TEST_F(TracersTest, DisplacementKeepsOutOfExcludedZones) {
+  campaign_.species[1].softening = Softening{1475, 1675};
+  campaign_.species[1].none_below = 0.3;
+  std::vector<double> ore(mesh_.cells());
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) ore[c] = mesh_.cell_centre[c][2] > 0.8 ? 1000 : 1700;
+  const auto height_of_lowest_excluded = [&](const std::vector<double>& temperature) {
+    const auto displaced = displaced_cells(mesh_, campaign_, bed_, temperature);
+    double lowest = 1.4;
+    for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+      if (bed_[c] && !displaced[c]) lowest = std::min(lowest, mesh_.cell_centre[c][2]);
+      if (!bed_[c]) EXPECT_FALSE(displaced[c]);
+    }
+    return lowest;
+  };
+  EXPECT_NEAR(height_of_lowest_excluded(ore), 0.9, 1e-12);
+  EXPECT_NEAR(height_of_lowest_excluded(std::vector<double>(mesh_.cells(), 300)), 0.5, 1e-12);  // above none_below
+  EXPECT_EQ(height_of_lowest_excluded({}), 1.4);                                                // nothing melts
+  campaign_.tracer.displacement_excludes.above_cohesive_zone = false;
+  EXPECT_EQ(height_of_lowest_excluded(ore), 1.4);
+  campaign_.tracer.displacement_excludes.boxes = {{{{-1, -1, 0.6}, {1, 1, 0.75}}}};
+  EXPECT_NEAR(height_of_lowest_excluded(ore), 0.7, 1e-12);
 }
 
 TEST(Ledger, ResidualsSeeWhatIsMissingAndSurviveACheckpoint) {

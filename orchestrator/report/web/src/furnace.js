@@ -4,6 +4,8 @@ import { kelvin, metres, number } from "./format.js";
 import { element, figure, redraw } from "./page.js";
 import { axis } from "./time_series.js";
 
+const episodeName = (episode) => (episode === 0 ? "prediction" : `episode ${episode}`);
+
 const margins = { left: 44, right: 10, top: 8, bottom: 40 };
 
 /** Both sides of the profile as one closed line. */
@@ -61,13 +63,13 @@ export function zoneFigure(report) {
   if (!zones.length) return null;
   const last = zones[zones.length - 1];
   const outlines = zones.map((zone, index) => ({
-    name: `episode ${zone.episode}`, type: "line", showSymbol: false, connectNulls: false, z: 7,
+    name: episodeName(zone.episode), type: "line", showSymbol: false, connectNulls: false, z: 7,
     data: zone.x.map((x, i) => [x, zone.height_melted[i]]), color: episodeColour(index, zones.length),
     lineStyle: { width: zone === last ? 3.5 : 1.8 },
   }));
   if (last.height_softened.some((z) => z !== null)) {
     outlines.push({
-      name: `softening, episode ${last.episode}`, type: "line", showSymbol: false, connectNulls: false, z: 7,
+      name: `softening, ${episodeName(last.episode)}`, type: "line", showSymbol: false, connectNulls: false, z: 7,
       data: last.x.map((x, i) => [x, last.height_softened[i]]), color: episodeColour(zones.length - 1, zones.length), lineStyle: { width: 1.8, type: "dotted" },
     });
   }
@@ -163,7 +165,7 @@ export function mapsSection(report) {
       shown = maps.episodes.find(({ episode }) => String(episode) === target.value);
       redraw(present.map(({ key }) => `map_${key}`));
     },
-  }, maps.episodes.map(({ episode }) => element("option", { value: episode, ...(episode === shown.episode ? { selected: "" } : {}) }, `${episode}`)));
+  }, maps.episodes.map(({ episode }) => element("option", { value: episode, ...(episode === shown.episode ? { selected: "" } : {}) }, episode === 0 ? "prediction" : `${episode}`)));
   const note = `Cells cut by the plane y = ${metres(maps.y)}. Fields are means over the last layer passage; velocities are scaled to the descent rate. ` +
     `${present.some(({ unit }) => unit === "K") ? "Blue line: the ore has melted. " : ""}Grey: above the stock line.`;
   return [element("h2", {}, "Fields in the mid-plane"),

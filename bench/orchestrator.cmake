@@ -1,0 +1,4 @@
+add_executable(bench_orchestrator bench_orchestrator.cpp)
+cupola_own_code(bench_orchestrator)
+target_compile_definitions(bench_orchestrator PRIVATE CUPOLA_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+target_link_libraries(bench_orchestrator PRIVATE cupola_orchestrator CLI11::CLI11)

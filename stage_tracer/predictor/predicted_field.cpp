@@ -1,0 +1,89 @@
+#include "stage_tracer/predictor/predicted_field.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "physics/projection/bed_state.hpp"
+#include "schemas/failure.hpp"
+#include "stage_tracer/make_granular_field.hpp"
+
+namespace cupola {
+namespace {
+
+/// A bed that no DEM stage has built: the expected packing, and in the raceways at most what their void leaves.
+GranularField expected_field(const BedMesh& mesh, const Campaign& campaign) {
+  GranularField field;
+  field.bed = bed_cells(mesh, campaign);
+  field.solids_fraction.assign(mesh.cells(), 0.0);
+  for (std::size_t c = 0; c < mesh.cells(); ++c) field.solids_fraction[c] = field.bed[c] ? expected_packing : 0;
+  for (const Raceway& raceway : campaign.raceways) {
+    for (const std::int64_t cell : raceway_cells(mesh, raceway))
+      field.solids_fraction[cell] = std::min(field.solids_fraction[cell], 1 - raceway.void_fraction);
+  }
+  field.contact_fraction = field.solids_fraction;
+  field.charge = charge_of(campaign, expected_packing);
+  return field;
+}
+
+}  // namespace
+
+PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, const DemResult* dem,
+                               const std::vector<double>& dem_temperature)
+    : mesh_(mesh), campaign_(campaign) {
+  if (campaign.raceways.empty() || !(campaign.descent_rate > 0)) {
+    throw Failure(ExitCode::wrong_input,
+                  "a prediction needs a bed that descends into raceways: give the campaign raceways and a positive "
+                  "descent_rate, or march instead");
+  }
+  if (dem != nullptr) {
+    field_ = make_granular_field(foam, mesh, campaign, *dem, dem_temperature);
+    measured_ = field_.face_flux;
+  } else {
+    field_ = expected_field(mesh, campaign);
+  }
+  const std::vector<bool> persistent = persistent_species(campaign);
+  for (std::size_t s = 0; s < persistent.size(); ++s) {
+    volume_rate_ += field_.charge.volume_rate[s];
+    if (persistent[s]) charged_share_ += field_.charge.volume_share[s];
+  }
+  if (!(charged_share_ > 0)) {
+    throw Failure(ExitCode::wrong_input,
+                  "a prediction needs a species that does not melt: it carries the bed's motion into the raceways; add "
+                  "coke to charging.layers, or march instead")
+        .at("key", "charging.layers");
+  }
+  std::vector<double> weights = dem != nullptr ? dem->removal_by_raceway : std::vector<double>{};
+  if (weights.size() != campaign.raceways.size() || !(*std::max_element(weights.begin(), weights.end()) > 0)) {
+    weights.clear();
+    for (const Raceway& raceway : campaign.raceways) weights.push_back(raceway.dem_removal_rate);
+  }
+  if (!(std::accumulate(weights.begin(), weights.end(), 0.0) > 0)) weights.assign(weights.size(), 1.0);
+  sink_ = raceway_sink(mesh, campaign, field_.bed, weights, charged_share_ * volume_rate_);
+  std::vector<double> removed(mesh.cells());
+  for (std::size_t c = 0; c < mesh.cells(); ++c) removed[c] = sink_[c] * mesh.cell_volume[c];
+  surrogate_.emplace(foam, mesh, field_.bed, removed);
+  if (dem != nullptr) surrogate_then_ = (*surrogate_)(share(dem_temperature));
+}
+
+std::vector<double> PredictedField::share(const std::vector<double>& ore_temperature) const {
+  return persistent_share(mesh_, campaign_, charged_share_, ore_temperature);
+}
+
+void PredictedField::follow(const std::vector<double>& ore_temperature) {
+  const std::vector<double> f = share(ore_temperature);
+  field_.face_flux = (*surrogate_)(f);
+  for (std::size_t face = 0; face < measured_.size(); ++face)
+    field_.face_flux[face] += measured_[face] - surrogate_then_[face];
+  field_.storage.resize(mesh_.cells());
+  field_.removal_rate.resize(mesh_.cells());
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    field_.storage[c] = f[c] * std::max(field_.solids_fraction[c], least_solids_fraction);
+    field_.removal_rate[c] = sink_[c] / field_.storage[c];
+  }
+  field_.stock_faces = stock_faces(mesh_, field_.bed, field_.face_flux, volume_rate_);
+  const double height = std::min(campaign_.charging.stock_line, campaign_.top()) - campaign_.bottom();
+  field_.stagnant = stagnant_cells(PathField(mesh_, field_.face_flux, field_.storage), field_.bed,
+                                   10 * height / campaign_.descent_rate);
+}
+
+}  // namespace cupola

@@ -1,0 +1,39 @@
+#pragma once
+#include <optional>
+
+#include "stage_tracer/dem_result.hpp"
+#include "stage_tracer/granular_field.hpp"
+#include "stage_tracer/predictor/surrogate_flux.hpp"
+
+namespace cupola {
+
+/// The granular field that follows the cohesive zone: the surrogate's alone, or that of the last DEM stage corrected by
+/// what the surrogate says the zone's shift changes, q = q_DEM + q_surrogate(f) - q_surrogate(f of the DEM stage).
+class PredictedField {
+ public:
+  /// @param dem             null: without a DEM result
+  /// @param dem_temperature K, what that DEM stage softened and melted by
+  /// @throws Failure wrong_input: no raceways, descent or persistent species
+  PredictedField(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, const DemResult* dem,
+                 const std::vector<double>& dem_temperature);
+
+  /// Lets flux and storage follow an ore temperature, K, all cells.
+  void follow(const std::vector<double>& ore_temperature);
+
+  [[nodiscard]] const GranularField& field() const { return field_; }
+
+ private:
+  [[nodiscard]] std::vector<double> share(const std::vector<double>& ore_temperature) const;
+
+  const BedMesh& mesh_;
+  const Campaign& campaign_;
+  double charged_share_ = 0;  ///< of the persistent species
+  double volume_rate_ = 0;    ///< m3/s, all species
+  GranularField field_;
+  std::vector<double> sink_;  ///< 1/s
+  std::optional<SurrogateFlux> surrogate_;
+  std::vector<double> measured_;        ///< face flux of the DEM result; empty without
+  std::vector<double> surrogate_then_;  ///< the surrogate's for the DEM stage's zone
+};
+
+}  // namespace cupola

@@ -1,0 +1,245 @@
+#include "stage_tracer/predictor/predictor.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "schemas/failure.hpp"
+#include "stage_tracer/bed_composition.hpp"
+#include "stage_tracer/ore_temperature.hpp"
+
+namespace cupola {
+namespace {
+
+/// On streamlines that will move again, the temperatures need not be much better than the last move.
+constexpr double inner_over_outer = 0.2;
+constexpr int most_evaluations = 6;
+constexpr double flow_tolerance = 1e-4;
+/// How far the granular field follows the zone: all the way, and less each time the change has hardly fallen.
+constexpr double slow_decrease = 0.8;
+constexpr double shorten = 0.7;
+constexpr double least_follow = 0.15;
+
+/// rms over the bed of what changed, K: the gas weighted with the cells' volumes, species with their shares of the
+/// solids.
+double change_of(const BedMesh& mesh, const std::vector<bool>& bed, const CellContents& contents,
+                 const BedTemperatures& now, const BedTemperatures& before) {
+  double sum = 0;
+  double weight = 0;
+  const auto add = [&](double volume, double difference) {
+    sum += volume * difference * difference;
+    weight += volume;
+  };
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    if (!bed[c]) continue;
+    add(mesh.cell_volume[c], now.gas[c] - before.gas[c]);
+    double solids = 0;
+    for (const auto& volume : contents.volume) solids += volume[c];
+    for (std::size_t s = 0; s < now.solids.size() && solids > 0; ++s) {
+      add(mesh.cell_volume[c] * contents.volume[s][c] / solids, now.solids[s][c] - before.solids[s][c]);
+    }
+  }
+  return weight > 0 ? std::sqrt(sum / weight) : 0;
+}
+
+}  // namespace
+
+Predictor::Predictor(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, const DemResult* dem,
+                     const std::vector<double>& dem_temperature)
+    : foam_(foam),
+      mesh_(mesh),
+      campaign_(campaign),
+      granular_(foam, mesh, campaign, dem, dem_temperature),
+      kernel_(mesh, field().bed, kernel_diameter(campaign, field().charge)),
+      conduction_(mesh, campaign, field().bed, field().charge.layer_thickness, field().charge.volume_share),
+      heat_(mesh, campaign, kernel_, conduction_, sum_over_world()),
+      gas_(foam, mesh, campaign),
+      empty_share_(share_of_persistent(campaign, field().charge)) {}
+
+void Predictor::compose(const CellContents& contents) {
+  bed_volume_ = bed_composition(mesh_, campaign_, field(), spread(contents, kernel_), empty_share_);
+  bed_ = bed_state(mesh_, campaign_, bed_volume_);
+}
+
+CellContents Predictor::guessed_contents(const std::vector<double>& ore_temperature) const {
+  CellContents contents{BySpecies(campaign_.species.size(), std::vector<double>(mesh_.cells(), 0.0)),
+                        temperatures_.solids};
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    if (!field().bed[c]) continue;
+    for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
+      const Species& species = campaign_.species[s];
+      const bool gone = species.softening && (ore_temperature[c] >= species.softening->melted ||
+                                              mesh_.cell_centre[c][2] < species.none_below);
+      if (!gone)
+        contents.volume[s][c] = field().charge.volume_share[s] * field().solids_fraction[c] * mesh_.cell_volume[c];
+    }
+  }
+  return contents;
+}
+
+std::vector<double> Predictor::ore_temperature() const {
+  if (!can_melt(campaign_)) return std::vector<double>(mesh_.cells(), campaign_.charging.temperature);
+  const CellContents around = spread(solids_.contents, kernel_);
+  return find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature).ore_temperature;
+}
+
+Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock) {
+  temperatures_ = std::move(temperatures);
+  // Where melting is guessed, the species that melts is taken at its guessed temperature.
+  std::vector<double> ore = temperatures_.gas;
+  for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
+    if (campaign_.species[s].softening) ore = temperatures_.solids[s];
+  }
+  solids_.contents = guessed_contents(ore);
+  std::vector<double> persistent_flux;
+  const std::vector<bool> persistent = persistent_species(campaign_);
+  double persistent_share_charged = 0;
+  for (std::size_t s = 0; s < persistent.size(); ++s)
+    persistent_share_charged += persistent[s] ? field().charge.volume_share[s] : 0;
+  Outcome outcome;
+  double tolerance = 20;
+  double follow = 1;
+  for (int iteration = 0; iteration < settings.most_iterations; ++iteration) {
+    {
+      const auto running = clock.measure("granular flux");
+      granular_.follow(ore);
+    }
+    {
+      const auto running = clock.measure("flow");
+      compose(solids_.contents);
+      if (iteration == 0) {
+        gas_.begin(bed_, temperatures_.gas);
+      } else {
+        gas_.improve_flow(bed_, flow_tolerance, 1);
+      }
+    }
+    std::optional<Streamlines> lines;
+    {
+      const auto running = clock.measure("streamlines");
+      persistent_flux.clear();
+      for (const StockFace& face : field().stock_faces)
+        persistent_flux.push_back(face.volume_rate * persistent_share_charged);
+      lines.emplace(mesh_, field().face_flux, field().stock_faces, persistent_flux, settings.lines_per_edge,
+                    foam_.rank(), foam_.ranks());
+    }
+    const BedTemperatures before = temperatures_;
+    Iteration record;
+    {
+      const auto running = clock.measure("temperatures");
+      const SteadyHeat::Result result = heat_.solve({field(), *lines, bed_volume_, bed_}, gas_, solids_.contents,
+                                                    temperatures_, tolerance, most_evaluations);
+      solids_ = result.solids;
+      record.evaluations = result.evaluations;
+      record.correction = result.correction;
+    }
+    check_raceways();
+    const std::vector<double> found = ore_temperature();
+    // A step cut short makes the change look smaller than what is left.
+    record.change = change_of(mesh_, field().bed, solids_.contents, temperatures_, before) / follow;
+    if (iteration > 0 && record.change > slow_decrease * outcome.iterations.back().change)
+      follow = std::max(least_follow, shorten * follow);
+    for (std::size_t c = 0; c < ore.size(); ++c) ore[c] += follow * (found[c] - ore[c]);
+    record.zone_height = HUGE_VAL;
+    if (can_melt(campaign_)) {
+      const CellContents around = spread(solids_.contents, kernel_);
+      record.zone_height =
+          find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature).melted.height_mean;
+    }
+    outcome.iterations.push_back(record);
+    if (foam_.rank() == 0) {
+      spdlog::info("iteration {}: change {:.3g} K, {} evaluations (last correction {:.2g} K), zone at {:.3f} m",
+                   iteration + 1, record.change, record.evaluations, record.correction, record.zone_height);
+    }
+    if (record.change < settings.tolerance && record.correction < settings.tolerance) {
+      outcome.converged = true;
+      break;
+    }
+    tolerance = std::clamp(inner_over_outer * record.change, 0.2 * settings.tolerance, 20.0);
+  }
+  look_for_warnings(outcome);
+  return outcome;
+}
+
+void Predictor::check_raceways() const {
+  // What a raceway should remove must reach it on the streamlines.
+  for (std::size_t r = 0; r < campaign_.raceways.size(); ++r) {
+    double wanted = 0;
+    double removed = 0;
+    for (const std::int64_t cell : raceway_cells(mesh_, campaign_.raceways[r])) {
+      wanted += field().removal_rate[cell] * field().storage[cell] * mesh_.cell_volume[cell];
+      removed += solids_.removed[cell];
+    }
+    if (removed < 0.5 * wanted) {
+      throw Failure(
+          ExitCode::diverged,
+          fmt::format("raceways[{}] should remove {:.3g} m3/s, but only {:.3g} m3/s reach it on paths from the "
+                      "stock plane; enlarge its box or refine scene.mesh.cell",
+                      r, wanted, removed))
+          .at("key", fmt::format("raceways[{}].box", r));
+    }
+  }
+}
+
+void Predictor::look_for_warnings(Outcome& outcome) const {
+  double volume = 0;
+  double reached = 0;
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    if (!field().bed[c]) continue;
+    volume += mesh_.cell_volume[c];
+    double inflow = 0;
+    for (const auto& of_species : solids_.inflow) {
+      for (std::size_t side = 0; side < 7; ++side) inflow += of_species[7 * c + side];
+    }
+    if (inflow > 0) reached += mesh_.cell_volume[c];
+  }
+  outcome.reached = volume > 0 ? reached / volume : 0;
+  if (!outcome.converged) {
+    outcome.warnings.push_back(fmt::format(
+        "The prediction did not converge: the temperatures still changed by {:.3g} K in the last of {} iterations. "
+        "March instead, or change blast or burden.",
+        outcome.iterations.back().change, outcome.iterations.size()));
+  }
+  if (!can_melt(campaign_)) return;
+  const CellContents around = spread(solids_.contents, kernel_);
+  const MeltingZone zone = find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature);
+  const double stock = std::min(campaign_.charging.stock_line, campaign_.top());
+  const double unmelted = solids_.rates.of(solids_.rates.mass, Cause::unmelted);
+  const double melted = solids_.rates.of(solids_.rates.mass, Cause::melted);
+  if (zone.softened.height_max > stock - 2 * campaign_.scene.mesh.cell) {
+    outcome.warnings.push_back(
+        fmt::format("The cohesive zone reaches the stock line: softening begins {:.2g} m below it. Blow less or cooler "
+                    "gas, or charge more burden.",
+                    stock - zone.softened.height_max));
+  }
+  if (unmelted > 0.05 * (unmelted + melted)) {
+    outcome.warnings.push_back(
+        fmt::format("{:.0f} % of the melting species does not melt before `none_below`: more or hotter blast, or less "
+                    "burden, is needed.",
+                    100 * unmelted / (unmelted + melted)));
+  }
+}
+
+Ledger Predictor::ledger() const {
+  Ledger ledger;
+  ledger.tally = solids_.rates;
+  const GasEnergy::Ledger& gas = gas_.energy_ledger();
+  ledger.blast = gas.blast;
+  ledger.top_gas = gas.top_gas;
+  ledger.walls = gas.walls;
+  ledger.to_solids = gas.to_solids;
+  for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
+    for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+      const double volume = solids_.contents.volume[s][c];
+      if (!(volume > 0)) continue;
+      ledger.mass_now += volume * campaign_.species[s].density;
+      ledger.energy_now += enthalpy(campaign_.species[s], volume, solids_.contents.temperature[s][c]);
+    }
+  }
+  ledger.mass_begin = ledger.mass_now;
+  ledger.energy_begin = ledger.energy_now;
+  return ledger;
+}
+
+}  // namespace cupola

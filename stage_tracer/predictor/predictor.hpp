@@ -1,0 +1,86 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/mesh/foam_case.hpp"
+#include "schemas/failure.hpp"
+#include "schemas/task.hpp"
+#include "stage_tracer/part_clock.hpp"
+#include "stage_tracer/predictor/predicted_field.hpp"
+#include "stage_tracer/predictor/steady_heat.hpp"
+#include "stage_tracer/result.hpp"
+
+namespace cupola {
+
+/// The steady state of a campaign without marching: granular flux, streamlines, composition, gas flow and temperatures
+/// in turns until they agree (docs/predictor.md).
+class Predictor {
+ public:
+  /// @param dem may be null  @param dem_temperature K, what that DEM stage softened and melted by
+  /// @throws Failure wrong_input: nothing that this can predict
+  Predictor(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, const DemResult* dem,
+            const std::vector<double>& dem_temperature);
+
+  struct Settings {
+    double tolerance = 0.5;  ///< K, rms change of an iteration
+    int most_iterations = 40;
+    int lines_per_edge = 2;  ///< streamlines along each edge of a stock face
+  };
+  /// One outer iteration, for the report.
+  struct Iteration {
+    double change = 0;      ///< K, rms of gas and solids
+    double correction = 0;  ///< K, left in the temperatures on fixed streamlines
+    int evaluations = 0;
+    double zone_height = 0;  ///< m, mean; NaN without one
+  };
+  struct Outcome {
+    bool converged = false;
+    std::vector<Iteration> iterations;
+    std::vector<std::string> warnings;
+    double reached = 0;  ///< share of the bed's volume that streamlines reach
+  };
+  /// @param temperatures where to begin
+  Outcome solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock);
+
+  [[nodiscard]] const GranularField& field() const { return granular_.field(); }
+  [[nodiscard]] const BedTemperatures& temperatures() const { return temperatures_; }
+  [[nodiscard]] const CellContents& contents() const { return solids_.contents; }
+  /// As the tracer stage's, of one second of the steady state; nothing is stored.
+  [[nodiscard]] Ledger ledger() const;
+  [[nodiscard]] const GasModel& gas() const { return gas_; }
+  [[nodiscard]] std::int64_t cells_at_floor() const { return bed_.cells_at_floor; }
+
+ private:
+  void compose(const CellContents& contents);
+  [[nodiscard]] CellContents guessed_contents(const std::vector<double>& ore_temperature) const;
+  [[nodiscard]] std::vector<double> ore_temperature() const;
+  void check_raceways() const;
+  void look_for_warnings(Outcome& outcome) const;
+
+  FoamCase& foam_;
+  const BedMesh& mesh_;
+  const Campaign& campaign_;
+  PredictedField granular_;
+  CellSpreading kernel_;
+  Conduction conduction_;
+  SteadyHeat heat_;
+  GasModel gas_;
+  std::vector<double> empty_share_;
+  BedTemperatures temperatures_;
+  SolidsOnLines solids_;
+  BySpecies bed_volume_;
+  BedState bed_;
+};
+
+/// Expected relative error of a prediction's temperatures, rms(T - T_steady)/rms(T_steady - 293 K): what was measured
+/// against marches (docs/predictor.md), with a DEM result and without.
+double expected_error(bool with_dem);
+
+/// Makes the prediction of a task of kind `predict` and writes its `result.hdf`. Every rank runs it.
+/// @throws Failure
+ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task& task);
+
+}  // namespace cupola
