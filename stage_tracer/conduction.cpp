@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "physics/closures/carson.hpp"
+#include "physics/closures/gas_state.hpp"
 #include "physics/closures/layer_exchange.hpp"
+#include "physics/closures/zehner_bauer_schluender.hpp"
 
 namespace cupola {
 namespace {
@@ -43,29 +45,60 @@ Conduction::Conduction(const BedMesh& mesh, const Campaign& campaign, const std:
     const std::int64_t other_face = partner >= 0 ? partner : static_cast<std::int64_t>(f);
     neighbours_.push_back({owner, neighbour, area_over_distance(mesh, f, other_face, neighbour)});
   }
+  const auto& loss = campaign.scene.heat_loss;
+  if (!loss || loss->on == WallHeatLoss::On::gas) return;
+  wall_.assign(mesh.cells(), 0.0);
+  for (const auto& patch : mesh.patches) {
+    if (patch.kind != BedMesh::PatchKind::wall) continue;
+    for (auto face = patch.first_face; face < patch.first_face + patch.faces; ++face) {
+      const Vector3& area = mesh.face_area[face];
+      if (bed[mesh.face_owner[face]])
+        wall_[mesh.face_owner[face]] += loss->coefficient * std::hypot(area[0], area[1], area[2]);
+    }
+  }
 }
 
-std::vector<Link> Conduction::links(const CellContents& contents, const BySpecies& bed_volume) const {
-  const std::size_t cells = mesh_.cells();
-  const std::size_t species = campaign_.species.size();
-  std::vector<double> solids(cells, 0.0);
-  for (const auto& volume : bed_volume) {
-    for (std::size_t c = 0; c < cells; ++c) solids[c] += volume[c];
-  }
-  // Share of each species, zero where no tracer holds its heat.
+BySpecies Conduction::shares(const CellContents& contents, const BySpecies& bed_volume) const {
   BySpecies share = bed_volume;
-  for (std::size_t s = 0; s < species; ++s) {
-    for (std::size_t c = 0; c < cells; ++c) {
-      share[s][c] = solids[c] > 0 && contents.volume[s][c] > 1e-9 * mesh_.cell_volume[c] ? share[s][c] / solids[c] : 0;
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    double solids = 0;
+    for (const auto& volume : bed_volume) solids += volume[c];
+    // Zero where no tracer holds its heat.
+    for (std::size_t s = 0; s < share.size(); ++s)
+      share[s][c] = solids > 0 && contents.volume[s][c] > 1e-9 * mesh_.cell_volume[c] ? share[s][c] / solids : 0;
+  }
+  return share;
+}
+
+BySpecies Conduction::conductivities(const CellContents& contents, const BySpecies& bed_volume) const {
+  const std::size_t species = campaign_.species.size();
+  BySpecies result(species, std::vector<double>(mesh_.cells()));
+  const Heat heat = campaign_.heat.value_or(Heat{});
+  const bool with_gas = heat.bed_conduction == Heat::BedConduction::zehner_bauer_schluender && campaign_.scene.gas;
+  const GasState gas(campaign_.scene.gas.value_or(Gas{}));
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    double fraction = 0;
+    for (const auto& volume : bed_volume) fraction += volume[c] / mesh_.cell_volume[c];
+    for (std::size_t s = 0; s < species; ++s) {
+      const Species& material = campaign_.species[s];
+      // A species that is not there has no temperature and conducts nothing.
+      if (!(contents.volume[s][c] > 0)) continue;
+      const double temperature = contents.temperature[s][c];
+      const double solid = material.conductivity.at(temperature);
+      result[s][c] = with_gas
+                         ? bed_conductivity_zehner_bauer_schluender(
+                               {solid, gas.conductivity(temperature), material.diameter, heat.emissivity, temperature},
+                               1 - fraction)
+                         : bed_conductivity_carson(solid, fraction);
     }
   }
-  std::vector<Link> result;
-  std::vector<std::vector<double>> conductivity(species, std::vector<double>(cells));
-  for (std::size_t s = 0; s < species; ++s) {
-    for (std::size_t c = 0; c < cells; ++c) {
-      conductivity[s][c] = bed_conductivity_carson(campaign_.species[s].conductivity.at(contents.temperature[s][c]),
-                                                   solids[c] / mesh_.cell_volume[c]);
-    }
+  return result;
+}
+
+void Conduction::link_within_species(const BySpecies& share, const BySpecies& conductivity,
+                                     std::vector<Link>& result) const {
+  const std::size_t cells = mesh_.cells();
+  for (std::size_t s = 0; s < share.size(); ++s) {
     for (const Neighbours& pair : neighbours_) {
       const double a = conductivity[s][pair.first];
       const double b = conductivity[s][pair.second];
@@ -76,8 +109,12 @@ std::vector<Link> Conduction::links(const CellContents& contents, const BySpecie
                         overlap * 2 * a * b / (a + b) * pair.area_over_distance});
     }
   }
-  for (std::size_t a = 0; a < species; ++a) {
-    for (std::size_t b = a + 1; b < species; ++b) {
+}
+
+void Conduction::link_layers(const BySpecies& share, const BySpecies& conductivity, std::vector<Link>& result) const {
+  const std::size_t cells = mesh_.cells();
+  for (std::size_t a = 0; a < share.size(); ++a) {
+    for (std::size_t b = a + 1; b < share.size(); ++b) {
       const double recipe = recipe_share_[a] * recipe_share_[b];
       if (recipe <= 0) continue;
       for (std::size_t c = 0; c < cells; ++c) {
@@ -88,24 +125,76 @@ std::vector<Link> Conduction::links(const CellContents& contents, const BySpecie
       }
     }
   }
+}
+
+void Conduction::link_mixture(const BySpecies& share, const BySpecies& conductivity, std::vector<Link>& result) const {
+  const std::size_t cells = mesh_.cells();
+  // Carson's factor is the same for all species of a cell.
+  const auto mixed = [&](std::int64_t cell) {
+    double sum = 0;
+    for (std::size_t s = 0; s < share.size(); ++s) sum += share[s][cell] * conductivity[s][cell];
+    return sum;
+  };
+  for (const Neighbours& pair : neighbours_) {
+    const double a = mixed(pair.first), b = mixed(pair.second);
+    if (a <= 0 || b <= 0) continue;
+    const double whole = 2 * a * b / (a + b) * pair.area_over_distance;
+    for (std::size_t s = 0; s < share.size(); ++s) {
+      for (std::size_t t = 0; t < share.size(); ++t) {
+        const double part = share[s][pair.first] * share[t][pair.second];
+        if (part > 0) {
+          result.push_back({s * cells + static_cast<std::size_t>(pair.first),
+                            t * cells + static_cast<std::size_t>(pair.second), part * whole});
+        }
+      }
+    }
+  }
+}
+
+std::vector<Link> Conduction::links(const CellContents& contents, const BySpecies& bed_volume) const {
+  const BySpecies share = shares(contents, bed_volume);
+  const BySpecies conductivity = conductivities(contents, bed_volume);
+  std::vector<Link> result;
+  if (campaign_.heat && campaign_.heat->bed_conduction == Heat::BedConduction::mixture) {
+    link_mixture(share, conductivity, result);
+    return result;
+  }
+  link_within_species(share, conductivity, result);
+  link_layers(share, conductivity, result);
   return result;
 }
 
-Conduction::Result Conduction::advance(const CellContents& contents, const BySpecies& bed_volume, double step) const {
+std::vector<double> Conduction::wall_conductance(const CellContents& contents, const BySpecies& bed_volume) const {
+  const std::size_t cells = mesh_.cells();
+  std::vector<double> result(campaign_.species.size() * cells, 0.0);
+  if (wall_.empty()) return result;
+  const BySpecies share = shares(contents, bed_volume);
+  const bool both = campaign_.scene.heat_loss->on == WallHeatLoss::On::both;
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (wall_[c] <= 0) continue;
+    double solids = 0;
+    for (const auto& volume : bed_volume) solids += volume[c] / mesh_.cell_volume[c];
+    for (std::size_t s = 0; s < share.size(); ++s)
+      result[s * cells + c] = wall_[c] * share[s][c] * (both ? std::min(1.0, solids) : 1.0);
+  }
+  return result;
+}
+
+Conduction::Result Conduction::advance(const CellContents& contents, const BySpecies& capacity,
+                                       const BySpecies& bed_volume, double step) const {
   const std::size_t cells = mesh_.cells();
   const std::size_t species = campaign_.species.size();
-  std::vector<double> capacity(species * cells);
+  const std::vector<double> wall = wall_conductance(contents, bed_volume);
+  const double outside = campaign_.scene.heat_loss ? campaign_.scene.heat_loss->ambient : 0;
   std::vector<double> temperature(species * cells);
   std::vector<double> diagonal(species * cells);
   std::vector<double> source(species * cells);
   for (std::size_t s = 0; s < species; ++s) {
-    const double heat = campaign_.species[s].density * campaign_.species[s].heat_capacity.at(293);
     for (std::size_t c = 0; c < cells; ++c) {
       const std::size_t i = s * cells + c;
-      capacity[i] = heat * contents.volume[s][c];
       temperature[i] = contents.temperature[s][c];
-      diagonal[i] = capacity[i] / step;
-      source[i] = diagonal[i] * temperature[i];
+      diagonal[i] = capacity[s][c] / step + wall[i];
+      source[i] = capacity[s][c] / step * temperature[i] + wall[i] * outside;
     }
   }
   const std::vector<Link> network = links(contents, bed_volume);
@@ -114,7 +203,11 @@ Conduction::Result Conduction::advance(const CellContents& contents, const BySpe
   const std::vector<double> inflow = network_inflow(network, temperature);
   result.change.assign(species, std::vector<double>(cells, 0.0));
   for (std::size_t i = 0; i < inflow.size(); ++i) {
-    if (capacity[i] > 0) result.change[i / cells][i % cells] = inflow[i] * step / capacity[i];
+    const double holds = capacity[i / cells][i % cells];
+    if (holds <= 0) continue;
+    const double lost = wall[i] * (temperature[i] - outside);
+    result.walls += lost * step;
+    result.change[i / cells][i % cells] = (inflow[i] - lost) * step / holds;
   }
   return result;
 }
@@ -125,6 +218,8 @@ BySpecies Conduction::steady(const CellContents& contents, const BySpecies& bed_
   const std::size_t species = campaign_.species.size();
   const std::vector<Link> network = links(contents, bed_volume);
   std::vector<double> temperature(species * cells);
+  const std::vector<double> wall = wall_conductance(contents, bed_volume);
+  const double outside = campaign_.scene.heat_loss ? campaign_.scene.heat_loss->ambient : 0;
   std::vector<double> diagonal(species * cells, 0.0);
   std::vector<double> source(species * cells, 0.0);
   for (std::size_t i = 0; i < temperature.size(); ++i) {
@@ -132,8 +227,8 @@ BySpecies Conduction::steady(const CellContents& contents, const BySpecies& bed_
     const std::size_t c = i % cells;
     temperature[i] = contents.temperature[s][c];
     if (!free[c]) continue;
-    diagonal[i] = gas_conductance[s][c];
-    source[i] = gas_conductance[s][c] * gas_temperature[s][c];
+    diagonal[i] = gas_conductance[s][c] + wall[i];
+    source[i] = gas_conductance[s][c] * gas_temperature[s][c] + wall[i] * outside;
   }
   // Held nodes are boundary values: their links become diagonal and source of the free ones.
   std::vector<Link> between_free;

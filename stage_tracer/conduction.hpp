@@ -11,11 +11,14 @@ namespace cupola {
 
 /// Conduction through the solids (MODEL 16), implicit in time, on the spread contents of the cells:
 /// * within a species, through each face with the conductance min(share) x harmonic mean of k_eff x area/distance,
-/// k_eff after Carson
-///   from the bed's solids fraction (non-orthogonality of the mesh is left out);
+///   k_eff after Carson, or Zehner, Bauer and Schluender, from the bed's solids fraction (non-orthogonality of the mesh
+///   is left out);
 /// * between two species in a cell, `layer_exchange` a volume from the recipe's layer thicknesses, weighted with
 ///   min(1, share_a share_b/(share_a share_b of the recipe)): whole where the cell holds the layers in the recipe's
-///   proportions, none where it holds one species alone.
+///   proportions, none where it holds one species alone;
+/// * `mixture` instead of both, for comparison: each species of a cell with each of the neighbour's, share x share x
+///   Carson's k_eff of the volume-weighted conductivity.
+/// Solids at walls lose heat where `walls.heat_loss.on` says so, each species on its share of the wall.
 /// What leaves one place is what arrives at the other, whatever the solver's tolerance: the fluxes of the solution are
 /// applied.
 class Conduction {
@@ -27,10 +30,13 @@ class Conduction {
 
   struct Result {
     BySpecies change;  ///< K, [species][cell], of the spread mean temperatures
+    double walls = 0;  ///< J, lost to the walls
     int iterations = 0;
   };
-  /// @param contents spread  @param bed_volume m3, [species][cell] (bed_composition)  @param step s
-  [[nodiscard]] Result advance(const CellContents& contents, const BySpecies& bed_volume, double step) const;
+  /// @param contents spread  @param capacity J/K, [species][cell], spread with the same kernel
+  /// @param bed_volume m3, [species][cell] (bed_composition)  @param step s
+  [[nodiscard]] Result advance(const CellContents& contents, const BySpecies& capacity, const BySpecies& bed_volume,
+                               double step) const;
 
   /// Steady temperatures of the cells in `free`, all others held: what infinitely long conduction and exchange with the
   /// gas leave there (stagnant solids, MODEL 12).  @param gas_conductance W/K a species and cell, to @param
@@ -42,6 +48,14 @@ class Conduction {
   /// Conductances between the places species x cells + cell, as they stand.
   /// @param contents spread
   [[nodiscard]] std::vector<Link> links(const CellContents& contents, const BySpecies& bed_volume) const;
+  [[nodiscard]] BySpecies shares(const CellContents& contents, const BySpecies& bed_volume) const;
+  /// k_eff, W/m/K, [species][cell].
+  [[nodiscard]] BySpecies conductivities(const CellContents& contents, const BySpecies& bed_volume) const;
+  void link_within_species(const BySpecies& share, const BySpecies& conductivity, std::vector<Link>& result) const;
+  void link_layers(const BySpecies& share, const BySpecies& conductivity, std::vector<Link>& result) const;
+  void link_mixture(const BySpecies& share, const BySpecies& conductivity, std::vector<Link>& result) const;
+  /// To the outside, W/K, species x cells + cell.
+  [[nodiscard]] std::vector<double> wall_conductance(const CellContents& contents, const BySpecies& bed_volume) const;
 
  private:
   const BedMesh& mesh_;
@@ -54,6 +68,7 @@ class Conduction {
     double area_over_distance;  ///< m
   };
   std::vector<Neighbours> neighbours_;
+  std::vector<double> wall_;  ///< W/K, of the whole wall of each cell; empty where the solids lose nothing
 };
 
 }  // namespace cupola

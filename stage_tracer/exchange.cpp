@@ -1,9 +1,10 @@
 #include "stage_tracer/exchange.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "physics/closures/gas_properties.hpp"
-#include "physics/closures/ranz_marshall.hpp"
+#include "physics/closures/biot.hpp"
+#include "physics/closures/convection.hpp"
 #include "physics/closures/solid_enthalpy.hpp"
 
 namespace cupola {
@@ -18,31 +19,53 @@ std::vector<std::vector<double>*> pointers(BySpecies& arrays) {
 
 }  // namespace
 
+std::vector<double> volumetric_heat_capacity(const Species& species, const std::vector<double>& temperature) {
+  std::vector<double> capacity(temperature.size());
+  for (std::size_t c = 0; c < capacity.size(); ++c)
+    capacity[c] = species.density * apparent_heat_capacity(species, temperature[c]);
+  return capacity;
+}
+
+Exchange::Exchange(const Campaign& campaign, const CellSpreading& kernel)
+    : campaign_(campaign), kernel_(kernel), gas_(campaign.scene.gas.value_or(Gas{})) {}
+
 double Exchange::mean_decay(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
 
-void Exchange::set_rates(const std::vector<Vector3>& mass_flux, double step) {
-  const Gas& gas = *campaign_.scene.gas;
-  const double conductivity = gas_conductivity(gas.viscosity, gas.heat_capacity, gas.prandtl);
-  const std::size_t cells = mass_flux.size();
-  const CellsOfRank& mine = kernel_.share();
+void Exchange::set_rates(const GasFields& gas, const CellContents& contents, double step) {
+  const Heat& heat = *campaign_.heat;
+  const std::size_t cells = gas.mass_flux.size();
   coefficient_.assign(campaign_.species.size(), std::vector<double>(cells));
-  for (std::size_t c = mine.begin; c < mine.end; ++c) {
-    const double flux = std::hypot(mass_flux[c][0], mass_flux[c][1], mass_flux[c][2]);
-    for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
-      coefficient_[s][c] = heat_transfer_coefficient(flux, campaign_.species[s].diameter, gas.viscosity, gas.prandtl,
-                                                     conductivity, campaign_.heat->nusselt_factor);
+  largest_biot_.assign(campaign_.species.size(), 0.0);
+  std::vector<GasAround> around(cells);
+  for (std::size_t c = 0; c < cells; ++c) {
+    const Vector3& flux = gas.mass_flux[c];
+    around[c] = {std::hypot(flux[0], flux[1], flux[2]), gas_.viscosity(gas.temperature[c]),
+                 campaign_.scene.gas->prandtl, gas_.conductivity(gas.temperature[c]), gas.void_fraction[c]};
+  }
+  for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
+    const Species& species = campaign_.species[s];
+    for (std::size_t c = 0; c < cells; ++c) {
+      double& transfer = coefficient_[s][c];
+      transfer = heat_transfer_coefficient(heat, around[c], species.diameter);
+      // Tracers of neighbouring cells feel this cell's gas too; the grains' own conductivity is that of the cell's
+      // solids, or of solids as hot as its gas.
+      const bool present = contents.volume[s][c] > 0;
+      const double conductivity = species.conductivity.at(present ? contents.temperature[s][c] : gas.temperature[c]);
+      if (present) largest_biot_[s] = std::max(largest_biot_[s], biot_number(transfer, species.diameter, conductivity));
+      if (heat.intragrain_resistance)
+        transfer = transfer_with_intragrain_resistance(transfer, species.diameter, conductivity);
     }
   }
-  mine.complete(pointers(coefficient_));
   felt_ = coefficient_;
   kernel_.gather(pointers(felt_));
+  const CellsOfRank& mine = kernel_.share();
   decay_ = felt_;
   mean_decay_ = felt_;
   for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
     const Species& species = campaign_.species[s];
-    const double factor = 6 / (species.diameter * species.density * species.heat_capacity.at(enthalpy_zero));
+    const std::vector<double> capacity = volumetric_heat_capacity(species, contents.temperature[s]);
     for (std::size_t c = mine.begin; c < mine.end; ++c) {
-      const double x = factor * felt_[s][c] * step;
+      const double x = 6 / (species.diameter * capacity[c]) * felt_[s][c] * step;
       decay_[s][c] = std::exp(-x);
       mean_decay_[s][c] = mean_decay(x);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/closures/drag.hpp"
+#include "physics/closures/sutherland.hpp"
 #include "physics/plan/inlet_limit.hpp"
 #include "schemas/failure.hpp"
 
@@ -19,18 +20,19 @@ constexpr int tight_iterations = 60;
 // K.
 constexpr int warm_iterations = 2;
 
+std::unique_ptr<BedFlow> make_flow(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign) {
+  if (campaign.tracer.gas == TracerSettings::GasModel::navier_stokes)
+    return std::make_unique<NavierStokes>(foam, mesh, campaign);
+  return std::make_unique<DarcyForchheimer>(foam, mesh, campaign);
+}
+
 }  // namespace
 
 GasModel::GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign)
     : campaign_(campaign),
-      flow_(foam, mesh, campaign),
+      flow_(make_flow(foam, mesh, campaign)),
       energy_(campaign.heat ? std::make_unique<GasEnergy>(foam, mesh, campaign) : nullptr),
-      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {
-  if (campaign.tracer.gas == TracerSettings::GasModel::navier_stokes) {
-    throw Failure(ExitCode::wrong_input, "tracer.gas: navier-stokes is not there yet; write darcy-forchheimer")
-        .at("key", "tracer.gas");
-  }
-}
+      threshold_(std::clamp(lag_over_accuracy * campaign.tracer.accuracy, 0.02, 0.4)) {}
 
 void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
   temperature_ = std::move(first_guess);
@@ -41,9 +43,11 @@ void GasModel::begin(const BedState& bed, std::vector<double> first_guess) {
 void GasModel::solve_flow_tightly(const BedState& bed) {
   solve_flow(bed, tight_tolerance, tight_iterations);
   const Gas& gas = *campaign_.scene.gas;
-  const auto blown = flow_.inlets();
+  const auto blown = flow_->inlets();
   for (std::size_t i = 0; i < blown.size(); ++i) {
-    const std::string refusal = inlet_refusal(gas, gas.inlets[i], blown[i].state);
+    Inlet inlet = gas.inlets[i];
+    inlet.mass_flow = blown[i].mass_flow;
+    const std::string refusal = inlet_refusal(gas, inlet, blown[i].state);
     if (!refusal.empty()) throw Failure(ExitCode::wrong_input, refusal).at("key", "scene.gas.inlets");
   }
 }
@@ -68,41 +72,42 @@ void GasModel::follow(const BedState& bed) {
 }
 
 void GasModel::solve_energy(const BedState& bed, const SolidsExchange& solids) {
-  temperature_ = energy_->solve(flow_, bed, solids);
+  temperature_ = energy_->solve(*flow_, bed, solids);
   ++energy_solves_;
 }
 
 std::vector<double> GasModel::resistance(const BedState& bed) const {
   const Gas& gas = *campaign_.scene.gas;
-  const std::vector<Vector3>& flux = flow_.mass_flux();
+  const std::vector<Vector3>& flux = flow_->mass_flux();
   std::vector<double> result(temperature_.size());
   for (std::size_t c = 0; c < result.size(); ++c) {
     // The resistance depends on density x speed alone, so any density will do.
     const double speed = flux.empty() ? 0 : std::hypot(flux[c][0], flux[c][1], flux[c][2]);
-    result[c] = bed.void_fraction[c] < 1
-                    ? temperature_[c] * drag_resistance(campaign_.drag, bed.void_fraction[c], bed.grain_diameter[c],
-                                                        gas.viscosity, 1.0, speed, bed.drag_factor[c])
-                    : 0;
+    result[c] =
+        bed.void_fraction[c] < 1
+            ? temperature_[c] * drag_resistance(campaign_.drag, bed.void_fraction[c], bed.grain_diameter[c],
+                                                gas_viscosity(gas, temperature_[c]), 1.0, speed, bed.drag_factor[c])
+            : 0;
   }
   return result;
 }
 
 void GasModel::solve_flow(const BedState& bed, double tolerance, int most_iterations) {
-  flow_.solve(bed, temperature_, tolerance, most_iterations);
+  flow_->solve(bed, temperature_, tolerance, most_iterations);
   last_resistance_ = resistance(bed);
   ++flow_solves_;
 }
 
 void GasModel::save(HdfWriter& file) const {
-  file.write("Gas/squared_pressure", flow_.warm_start().squared_pressure);
-  file.write("Gas/face_mass_flux", flow_.warm_start().face_mass_flux);
+  file.write("Gas/squared_pressure", flow_->warm_start().squared_pressure);
+  file.write("Gas/face_mass_flux", flow_->warm_start().face_mass_flux);
   file.write("Gas/temperature", temperature_);
   file.write("Gas/last_resistance", last_resistance_);
   file.write("Gas/counts", std::vector<std::int64_t>{flow_solves_, flow_skips_, energy_solves_});
 }
 
 void GasModel::restore(const HdfReader& file) {
-  flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
+  flow_->restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
   temperature_ = file.doubles("Gas/temperature");
   if (energy_) energy_->restore(temperature_);
   last_resistance_ = file.doubles("Gas/last_resistance");

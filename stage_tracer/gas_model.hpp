@@ -9,9 +9,9 @@
 
 namespace cupola {
 
-/// The steady gas of the tracer stage: the flow is solved again only where the bed has changed by more than the
-/// accuracy asks for, the energy (where there is heat) in every step.  Both start warm; every solve made or skipped is
-/// counted.
+/// The steady gas of the tracer stage, by the campaign's gas model: the flow is solved again only where the bed has
+/// changed by more than the accuracy asks for, the energy (where there is heat) in every step.  Both start warm; every
+/// solve made or skipped is counted.
 class GasModel {
  public:
   GasModel(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign);
@@ -35,7 +35,7 @@ class GasModel {
   void solve_energy(const BedState& bed, const SolidsExchange& solids);
 
   [[nodiscard]] const std::vector<double>& temperature() const { return temperature_; }
-  [[nodiscard]] const DarcyForchheimer& flow() const { return flow_; }
+  [[nodiscard]] const BedFlow& flow() const { return *flow_; }
   [[nodiscard]] const GasEnergy::Ledger& energy_ledger() const { return energy_->ledger(); }
   [[nodiscard]] long flow_solves() const { return flow_solves_; }
   [[nodiscard]] long flow_skips() const { return flow_skips_; }
@@ -50,7 +50,7 @@ class GasModel {
   void solve_flow(const BedState& bed, double tolerance, int most_iterations);
 
   const Campaign& campaign_;
-  DarcyForchheimer flow_;
+  std::unique_ptr<BedFlow> flow_;
   std::unique_ptr<GasEnergy> energy_;    ///< only where there is heat
   std::vector<double> temperature_;      ///< K, all cells
   std::vector<double> last_resistance_;  ///< at the last flow solution

@@ -7,19 +7,38 @@
 #include <limits>
 #include <optional>
 
+#include "physics/closures/solid_enthalpy.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
 
-void HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
-                       GasModel* gas, double step) {
+namespace {
+
+Exchange::GasFields fields_of(const GasModel& gas, const BedState& bed) {
+  return {gas.flow().mass_flux(), gas.temperature(), bed.void_fraction};
+}
+
+}  // namespace
+
+double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
+                         GasModel* gas, double step) {
   const std::size_t species = contents.volume.size();
   const std::size_t cells = contents.volume.front().size();
+  // Heat capacities as at the beginning of the step: the same for gas, neighbours and tracers.
+  BySpecies capacity(species);
+  BySpecies spread_capacity(species);
+  for (std::size_t s = 0; s < species; ++s) {
+    capacity[s] = volumetric_heat_capacity(campaign_.species[s], contents.temperature[s]);
+    spread_capacity[s] = capacity[s];
+    for (std::size_t c = 0; c < cells; ++c) spread_capacity[s][c] *= contents.volume[s][c];
+    kernel_.apply(spread_capacity[s]);
+  }
   BySpecies felt(species, std::vector<double>(cells, 0.0));
   BySpecies decay(species, std::vector<double>(cells, 1.0));
   if (gas != nullptr) {
     auto running = std::make_optional<PartClock::Running>(clock_, "exchange on cells");
-    exchange_.set_rates(gas->flow().mass_flux(), step);
+    exchange_.set_rates(fields_of(*gas, bed), contents, step);
+    largest_biot_ = exchange_.largest_biot();
     const SolidsExchange solids = exchange_.solids(contents);
     running.emplace(clock_, "gas energy");
     gas->solve_energy(bed, solids);
@@ -34,7 +53,8 @@ void HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies
         contents.temperature[s][c] = felt[s][c] + (contents.temperature[s][c] - felt[s][c]) * decay[s][c];
     }
   }
-  BySpecies shift = conduction_.advance(spread(contents, kernel_), bed_volume, step).change;
+  Conduction::Result conducted = conduction_.advance(spread(contents, kernel_), spread_capacity, bed_volume, step);
+  BySpecies& shift = conducted.change;
   for (std::size_t s = 0; s < species; ++s) {
     kernel_.gather(shift[s]);
     for (std::size_t c = 0; c < cells; ++c) {
@@ -45,8 +65,16 @@ void HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies
   for (std::size_t i = 0; i < tracers.size(); ++i) {
     const std::size_t s = tracers.species[i];
     const auto c = static_cast<std::size_t>(tracers.point[i].cell);
+    const Species& material = campaign_.species[s];
     double& temperature = tracers.temperature[i];
-    temperature = felt[s][c] + (temperature - felt[s][c]) * decay[s][c] + shift[s][c];
+    // At the capacity of the step; that of the tracer itself may differ.
+    const double rise = (felt[s][c] - temperature) * (1 - decay[s][c]) + shift[s][c];
+    if (has_constant_heat_capacity(material)) {
+      temperature += rise;
+    } else {
+      temperature =
+          solid_temperature(material, solid_enthalpy(material, temperature) + capacity[s][c] / material.density * rise);
+    }
     if (!(temperature > 0 && temperature < 1e5)) {
       throw Failure(
           ExitCode::diverged,
@@ -56,6 +84,7 @@ void HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies
           .advise("tracer.time_step", fmt::format("{:.6g}", step / 2));
     }
   }
+  return conducted.walls;
 }
 
 double HeatStep::relaxation_time(const CellContents& contents, double step) const {
@@ -74,16 +103,16 @@ double HeatStep::relaxation_time(const CellContents& contents, double step) cons
   return conductance > 0 ? capacity / conductance : std::numeric_limits<double>::infinity();
 }
 
-SolidsExchange HeatStep::solids_at_rest(const CellContents& contents, const std::vector<Vector3>& mass_flux) {
-  exchange_.set_rates(mass_flux, 0);
+SolidsExchange HeatStep::solids_at_rest(const CellContents& contents, const BedState& bed, const GasModel& gas) {
+  exchange_.set_rates(fields_of(gas, bed), contents, 0);
   return exchange_.solids(contents);
 }
 
 double HeatStep::settle_stagnant(Tracers& tracers, const CellContents& contents, const BySpecies& bed_volume,
-                                 const std::vector<bool>& stagnant, const GasModel& gas) const {
+                                 const std::vector<bool>& stagnant, const BedState& bed, const GasModel& gas) const {
   const CellContents spread_contents = spread(contents, kernel_);
   Exchange at_rest(campaign_, kernel_);
-  at_rest.set_rates(gas.flow().mass_flux(), 0);
+  at_rest.set_rates(fields_of(gas, bed), contents, 0);
   BySpecies conductance;
   for (std::size_t s = 0; s < spread_contents.volume.size(); ++s) {
     conductance.push_back(at_rest.coefficient()[s]);

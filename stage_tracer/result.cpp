@@ -119,6 +119,7 @@ void write_temperatures(FieldFileWriter& file, const Task& task, const MarchOutc
 void write_gas(FieldFileWriter& file, const Campaign& campaign, const GasModel& gas, nlohmann::json& summary) {
   file.cell_data("gas_pressure", gas.flow().pressure());
   file.cell_data("gas_mass_flux", flat(gas.flow().mass_flux()), 3);
+  file.cell_data("gas_inertia_over_drag", gas.flow().inertia_over_drag());
   summary["flow_solves"] = gas.flow_solves();
   summary["flow_skips"] = gas.flow_skips();
   summary["energy_solves"] = gas.energy_solves();
@@ -245,6 +246,12 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
   file.cell_data("solids_velocity", flat(cell_velocity(mesh, outcome.field)), 3);
   file.cell_data("stagnant", std::vector<double>(outcome.field.stagnant.begin(), outcome.field.stagnant.end()));
   if (outcome.gas != nullptr) write_gas(file, campaign, *outcome.gas, summary);
+  if (!outcome.gas_comparison.is_null()) summary["gas_models"] = outcome.gas_comparison;
+  if (heat) {
+    summary["intragrain_resistance"] = campaign.heat->intragrain_resistance;
+    for (std::size_t s = 0; s < outcome.largest_biot.size(); ++s)
+      summary["biot_largest"][campaign.species[s].name] = outcome.largest_biot[s];
+  }
   if (heat) write_temperatures(file, task, outcome, summary);
   if (!outcome.prediction.is_null()) summary["prediction"] = outcome.prediction;
   write_tracers(file.hdf(), outcome, heat);

@@ -51,7 +51,9 @@ struct MarchOutcome {
   std::map<std::string, double> wall_seconds_by_part{};
   double motion_imbalance = 1;  ///< largest over mean time of the ranks in moving tracers
   std::int64_t cells_at_floor = 0;
-  nlohmann::json prediction{};  ///< of a prediction: how it came about; null for a march
+  std::vector<double> largest_biot{};  ///< of each species, in the last step
+  nlohmann::json gas_comparison{};     ///< of both gas models, where asked for
+  nlohmann::json prediction{};         ///< of a prediction: how it came about; null for a march
   std::optional<double> step_error{};  ///< estimated error of the temperatures from the time step; with heat
   bool until_steady = false;
   std::optional<RemainingChange> remaining{};  ///< of a march until steady, where it is known

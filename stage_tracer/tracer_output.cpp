@@ -7,6 +7,8 @@
 #include "stage_tracer/tracer_stage.hpp"
 
 /// What the march tells while it runs and when it is done.
+#include "stage_tracer/gas_comparison.hpp"
+
 namespace cupola {
 namespace {
 
@@ -95,6 +97,9 @@ MarchOutcome TracerStage::outcome() {
   result.wall_seconds_by_part = clock_.seconds();
   result.motion_imbalance = imbalance(clock_.seconds().at("motion"), sum_);
   result.cells_at_floor = cells_at_floor_;
+  result.largest_biot = heat_.largest_biot();
+  if (gas_ && campaign_.tracer.compare_gas_models)
+    result.gas_comparison = compare_gas_models(foam_, mesh_, campaign_, bed_, gas_->temperature());
   return result;
 }
 

@@ -180,9 +180,9 @@ void TracerStage::begin_gas() {
   constexpr int most_turns = 20;
   for (int turn = 0; turn < most_turns; ++turn) {
     const std::vector<double> before = gas_->temperature();
-    gas_->solve_energy(bed_, heat_.solids_at_rest(contents_, gas_->flow().mass_flux()));
+    gas_->solve_energy(bed_, heat_.solids_at_rest(contents_, bed_, *gas_));
     if (settle) {
-      heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, *gas_);
+      heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, bed_, *gas_);
       compose();
     }
     gas_->solve_flow_tightly(bed_);

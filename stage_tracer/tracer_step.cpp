@@ -69,7 +69,7 @@ void TracerStage::compose() {
 }
 
 void TracerStage::exchange_heat(double seconds) {
-  heat_.advance(tracers_, contents_, bed_volume_, bed_, gas_.get(), seconds);
+  ledger_.walls += heat_.advance(tracers_, contents_, bed_volume_, bed_, gas_.get(), seconds);
   if (!gas_) return;
   const GasEnergy::Ledger& gas = gas_->energy_ledger();
   ledger_.blast += gas.blast * seconds;

@@ -1,3 +1,3 @@
 cupola_test(test_closures LABEL unit
-  SOURCES unit/closures/drag_test.cpp unit/closures/drag_laws_test.cpp unit/closures/heat_test.cpp unit/closures/solids_test.cpp unit/closures/inlet_test.cpp
-  LIBRARIES cupola_closures)
+  SOURCES unit/closures/drag_test.cpp unit/closures/drag_laws_test.cpp unit/closures/heat_test.cpp unit/closures/heat_laws_test.cpp unit/closures/solids_test.cpp unit/closures/inlet_test.cpp
+  LIBRARIES cupola_closures cupola_schemas)

@@ -6,7 +6,7 @@ cupola_test(cell_sums_test LABEL unit
   SOURCES unit/gas/bed_state_test.cpp unit/gas/cell_spreading_test.cpp unit/gas/cell_sums_test.cpp
   LIBRARIES cupola_cell_sums cupola_box_mesh)
 
-foreach(subject darcy_forchheimer gas_energy)
+foreach(subject darcy_forchheimer gas_energy gas_properties navier_stokes openings)
   cupola_test(${subject}_test LABEL verification
     SOURCES verification/gas/${subject}_test.cpp
     LIBRARIES cupola_gas cupola_foam_environment)

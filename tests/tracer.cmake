@@ -40,3 +40,4 @@ foreach(proof 01_single_grain 02_schumann 03_counter_current 04_conduction 05_er
 endforeach()
 cupola_tracer_verification(proof_07_motion cupola_tracer_parts cupola_box_mesh)
 cupola_tracer_verification(bad_input)
+cupola_tracer_verification(materials)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "orchestrator/report/json_numbers.hpp"
+#include "physics/closures/biot.hpp"
 
 namespace cupola {
 
@@ -68,6 +69,44 @@ void add_dem(const json& episode, std::vector<std::string>& list) {
   }
 }
 
+/// Grains that are not at one temperature inside, and the march takes them as if they were.
+void add_biot(const json& episode, std::vector<std::string>& list) {
+  const json::json_pointer place("/tracer/biot_largest");
+  if (!episode.contains(place) || episode.value(json::json_pointer("/tracer/intragrain_resistance"), false)) return;
+  for (const auto& [species, number] : episode.at(place).items()) {
+    if (!number.is_number() || number.get<double>() <= biot_to_flag) continue;
+    list.push_back(fmt::format(
+        "Tracer stage {}: the Biot number of {} reaches {:.2g}: its grains are not at one temperature inside; "
+        "heat.intragrain_resistance: true takes that into account.",
+        episode.at("index").get<int>(), species, number.get<double>()));
+  }
+}
+
+/// What the two gas models say of one state, where the campaign asked.
+void add_gas_models(const json& episode, std::vector<std::string>& list) {
+  const json::json_pointer place("/tracer/gas_models");
+  if (!episode.contains(place)) return;
+  const json& compared = episode.at(place);
+  const int index = episode.at("index").get<int>();
+  if (compared.contains("failed")) {
+    list.push_back(fmt::format("Tracer stage {}: the gas models could not be compared: {}.", index,
+                               compared.at("failed").get<std::string>()));
+    return;
+  }
+  for (const json& row : compared.value("rows", json::array())) {
+    const auto flux = number_at(row, "/mass_flux");
+    const auto pressure = number_at(row, "/pressure");
+    const auto from = number_at(row, "/from");
+    const auto to = number_at(row, "/to");
+    if (!flux || !pressure || !from) continue;
+    list.push_back(
+        fmt::format("Gas models in tracer stage {}, {} of an inlet: mass flux differs by {:.2g} %, pressure by "
+                    "{:.2g} % between Navier-Stokes and Darcy-Forchheimer.",
+                    index, to ? fmt::format("{:.1f} to {:.1f} m", *from, *to) : fmt::format("beyond {:.1f} m", *from),
+                    100 * *flux, 100 * *pressure));
+  }
+}
+
 void add_tracer(const json& episode, std::vector<std::string>& list) {
   const int index = episode.at("index").get<int>();
   if (const auto residual = number_at(episode, "/tracer/energy_residual");
@@ -112,6 +151,8 @@ std::vector<std::string> warnings(const json& report) {
     add_dem(episode, list);
     add_tracer(episode, list);
     add_clamps(episode, list);
+    add_biot(episode, list);
+    add_gas_models(episode, list);
   }
   // Ore may leave unmelted on the way to the steady state; what counts is how it ended.
   for (auto episode = episodes.rbegin(); episode != episodes.rend(); ++episode) {

@@ -10,12 +10,4 @@ inline double nusselt_ranz_marshall(double reynolds, double prandtl) {
   return 2 + 0.6 * std::sqrt(reynolds) * std::cbrt(prandtl);
 }
 
-/// Heat transfer coefficient between a grain and the gas, `nusselt_factor` x Nu k/d, W/m2/K.
-/// @param mass_flux |G| of the gas, kg/m2/s  @param diameter of the grain, m  @param viscosity Pa s
-/// @param conductivity of the gas, W/m/K  @param nusselt_factor the campaign's scaling (0.1 in the paper)
-inline double heat_transfer_coefficient(double mass_flux, double diameter, double viscosity, double prandtl,
-                                        double conductivity, double nusselt_factor) {
-  return nusselt_factor * nusselt_ranz_marshall(mass_flux * diameter / viscosity, prandtl) * conductivity / diameter;
-}
-
 }  // namespace cupola

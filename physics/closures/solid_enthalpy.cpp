@@ -26,9 +26,7 @@ double apparent_heat_capacity(const Species& species, double temperature) {
 }
 
 double solid_temperature(const Species& species, double enthalpy) {
-  const bool latent = species.softening && species.softening->latent_heat > 0;
-  if (species.heat_capacity.is_constant() && !latent)
-    return enthalpy_zero + enthalpy / species.heat_capacity.at(enthalpy_zero);
+  if (has_constant_heat_capacity(species)) return enthalpy_zero + enthalpy / species.heat_capacity.at(enthalpy_zero);
   // The enthalpy rises with the temperature everywhere, at least with the smallest and at most with the largest of the
   // heat capacities: Newton's method inside a bracket.
   double least = species.heat_capacity.points().front()[1];

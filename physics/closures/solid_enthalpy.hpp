@@ -14,6 +14,11 @@ double solid_enthalpy(const Species& species, double temperature);
 /// dh/dT of the above, J/kg/K; at the two temperatures that of the side above.
 double apparent_heat_capacity(const Species& species, double temperature);
 
+/// Whether the enthalpy is a straight line over the temperature.
+inline bool has_constant_heat_capacity(const Species& species) {
+  return species.heat_capacity.is_constant() && !(species.softening && species.softening->latent_heat > 0);
+}
+
 /// Temperature of a solid from its enthalpy: the exact inverse of `solid_enthalpy`.
 /// @param enthalpy J/kg from 293 K  @return K
 double solid_temperature(const Species& species, double enthalpy);

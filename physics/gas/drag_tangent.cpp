@@ -6,6 +6,7 @@
 
 #include "physics/closures/drag.hpp"
 #include "physics/closures/gas_properties.hpp"
+#include "physics/closures/sutherland.hpp"
 #include "physics/equations/cell_failure.hpp"
 
 namespace cupola {
@@ -32,9 +33,10 @@ void DragTangents::update(const BedState& bed, const std::vector<double>& gas_te
     tangent = {0, 0, speed[cell]};
     if (void_fraction > 1 - empty_solids_fraction) continue;
     // The laws depend on density x speed only, so a density of 1 turns the speed into the mass flux.
+    const double viscosity = gas_viscosity(gas_, gas_temperature[cell]);
     const auto law = [&](double flux) {
       return specific_gas_constant * gas_temperature[cell] *
-             drag_resistance(law_, void_fraction, bed.grain_diameter[cell], gas_.viscosity, 1, flux,
+             drag_resistance(law_, void_fraction, bed.grain_diameter[cell], viscosity, 1, flux,
                              bed.drag_factor[cell]);
     };
     const double step = 1e-3 * std::max(speed[cell], 1e-3 * usual_speed);

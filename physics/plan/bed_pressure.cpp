@@ -6,6 +6,7 @@
 #include "physics/closures/drag.hpp"
 #include "physics/closures/drag_beetstra.hpp"
 #include "physics/closures/gas_properties.hpp"
+#include "physics/closures/sutherland.hpp"
 
 namespace cupola {
 namespace {
@@ -18,10 +19,11 @@ struct SolidsAt {
 };
 
 /// @param shares of the solids volume, summing to 1
-SolidsAt solids_at(const Campaign& campaign, double packing, const std::vector<double>& shares, double mass_flux) {
+SolidsAt solids_at(const Campaign& campaign, double packing, const std::vector<double>& shares, double mass_flux,
+                   double viscosity) {
   // The laws see density x speed only through the mass flux.
   const auto resistance = [&](double diameter, double factor) {
-    return drag_resistance(campaign.drag, 1 - packing, diameter, campaign.scene.gas->viscosity, 1, mass_flux, factor);
+    return drag_resistance(campaign.drag, 1 - packing, diameter, viscosity, 1, mass_flux, factor);
   };
   SolidsAt result;
   double surface = 0, mean_diameter = 0;
@@ -79,8 +81,9 @@ std::optional<BedPressure> bed_pressure(const Campaign& campaign, const Charge& 
     if (present <= 0) continue;
     for (double& share : shares) share /= present;
     const double mass_flux = mass_flow / slot_area(campaign, stock_line - middle);
-    const SolidsAt solids = solids_at(campaign, charge.packing, shares, mass_flux);
     const double mean_temperature = (temperature[n] + temperature[n - 1]) / 2;
+    const SolidsAt solids =
+        solids_at(campaign, charge.packing, shares, mass_flux, gas_viscosity(gas, mean_temperature));
     const double rise =
         2 * molar_gas_constant * mean_temperature / gas.molar_mass * solids.resistance * mass_flux * height;
     const double next = std::sqrt(pressure * pressure + rise);

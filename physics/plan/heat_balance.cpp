@@ -4,10 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/closures/biot.hpp"
 #include "physics/closures/carson.hpp"
+#include "physics/closures/convection.hpp"
 #include "physics/closures/gas_properties.hpp"
+#include "physics/closures/gas_state.hpp"
 #include "physics/closures/layer_exchange.hpp"
-#include "physics/closures/ranz_marshall.hpp"
 #include "physics/closures/solid_enthalpy.hpp"
 
 namespace cupola {
@@ -32,8 +34,9 @@ class CampaignExchange {
         kinds_(kinds),
         gas_mass_flow_(gas_mass_flow),
         gas_temperature_(gas_temperature),
-        gas_conductivity_(gas_conductivity(campaign.scene.gas->viscosity, campaign.scene.gas->heat_capacity,
-                                           campaign.scene.gas->prandtl)) {}
+        gas_viscosity_(GasState(*campaign.scene.gas).viscosity((gas_temperature + campaign.charging.temperature) / 2)),
+        gas_conductivity_(
+            GasState(*campaign.scene.gas).conductivity((gas_temperature + campaign.charging.temperature) / 2)) {}
 
   BedExchange operator()(double z, const std::vector<bool>& present) const {
     const double area = slot_area(campaign_, z);
@@ -43,9 +46,14 @@ class CampaignExchange {
     for (std::size_t k = 0; k < kinds_.size(); ++k) {
       const Species& species = campaign_.species[kinds_[k]];
       const double share = present[k] ? charge_.volume_share[kinds_[k]] / share_present : 0;
-      const double transfer =
-          heat_transfer_coefficient(gas_mass_flow_ / area, species.diameter, campaign_.scene.gas->viscosity,
-                                    campaign_.scene.gas->prandtl, gas_conductivity_, campaign_.heat->nusselt_factor);
+      double transfer = heat_transfer_coefficient(
+          *campaign_.heat,
+          {gas_mass_flow_ / area, gas_viscosity_, campaign_.scene.gas->prandtl, gas_conductivity_, 1 - charge_.packing},
+          species.diameter);
+      if (campaign_.heat->intragrain_resistance) {
+        transfer = transfer_with_intragrain_resistance(
+            transfer, species.diameter, species.conductivity.mean(campaign_.charging.temperature, gas_temperature_));
+      }
       exchange.gas.push_back(transfer * 6 * charge_.packing * share / species.diameter * area);
     }
     if (kinds_.size() == 2 && present[0] && present[1]) exchange.between_solids = layers(area) * area;
@@ -71,7 +79,7 @@ class CampaignExchange {
   const Campaign& campaign_;
   const Charge& charge_;
   const std::vector<std::size_t>& kinds_;
-  double gas_mass_flow_, gas_temperature_, gas_conductivity_;
+  double gas_mass_flow_, gas_temperature_, gas_viscosity_, gas_conductivity_;
 };
 
 /// Over what a species goes through: from the charge's temperature to its melting (latent heat included), or to the
@@ -108,7 +116,13 @@ std::optional<HeatBalance> heat_balance(const Campaign& campaign, const Charge& 
   const double stock_line = campaign.charging.stock_line;
   if (result.gas_mass_flow <= 0 || stock_line <= result.gas_enters_at_height) return std::nullopt;
   result.gas_temperature /= result.gas_mass_flow;
-  result.gas_heat_capacity_flow = result.gas_mass_flow * gas.heat_capacity;
+  const GasState properties(gas);
+  const double cooled = result.gas_temperature - campaign.charging.temperature;
+  const double mean_capacity =
+      cooled != 0
+          ? (properties.enthalpy(result.gas_temperature) - properties.enthalpy(campaign.charging.temperature)) / cooled
+          : properties.heat_capacity(result.gas_temperature);
+  result.gas_heat_capacity_flow = result.gas_mass_flow * mean_capacity;
 
   for (std::size_t i = 0; i < campaign.species.size(); ++i) {
     if (charge.mass_rate[i] > 0) result.kinds.push_back(i);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/closures/gas_properties.hpp"
+#include "physics/closures/gas_state.hpp"
 #include "physics/plan/charge.hpp"
 #include "physics/plan/heat_balance.hpp"
 
@@ -16,7 +17,8 @@ double opening_of(const Campaign& campaign, const Inlet& inlet) {
 
 /// Mass flow of an inlet of a given velocity at a static pressure, kg/s.
 double blown(const Gas& gas, const Inlet& inlet, double opening, double pressure) {
-  const double temperature = inlet.total_temperature - inlet.velocity * inlet.velocity / (2 * gas.heat_capacity);
+  const double temperature = inlet.total_temperature - inlet.velocity * inlet.velocity /
+                                                           (2 * GasState(gas).heat_capacity(inlet.total_temperature));
   return temperature > 0 ? gas_density(pressure, temperature, gas.molar_mass) * inlet.velocity * opening : 0;
 }
 

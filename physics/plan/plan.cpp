@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "physics/closures/drag.hpp"
+#include "physics/closures/gas_state.hpp"
 #include "physics/plan/expected_parcels.hpp"
 #include "physics/plan/inlet_flows.hpp"
 #include "physics/plan/inlet_limit.hpp"
@@ -41,7 +42,7 @@ std::vector<InletPlan> inlet_plans(const Campaign& campaign, double static_press
     InletPlan plan{inlet.name, inlet.size[0] * inlet.size[1], {}};
     if (inlet.side == Inlet::Side::bottom) plan.opening = slot_area(campaign, campaign.bottom());
     plan.state = inlet_state(inlet.mass_flow, inlet.total_temperature, plan.opening, static_pressure, gas.molar_mass,
-                             gas.heat_capacity);
+                             GasState(gas).heat_capacity(inlet.total_temperature));
     plans.push_back(plan);
   }
   return plans;

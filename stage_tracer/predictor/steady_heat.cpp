@@ -61,7 +61,7 @@ class SteadyHeat::Evaluation {
         sweep_(mesh_, campaign_, bed.field.charge.volume_share),
         filling_(share_of_persistent(campaign_, bed.field.charge)),
         contents_(std::move(contents)) {
-    exchange_.set_rates(gas.flow().mass_flux(), 0);
+    exchange_.set_rates({gas.flow().mass_flux(), gas.temperature(), bed.state.void_fraction}, contents_, 0);
     rate_ = exchange_.coefficient();
     for (std::size_t s = 0; s < rate_.size(); ++s) {
       kernel_.gather(rate_[s]);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "physics/closures/carson.hpp"
+#include "physics/closures/convection.hpp"
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/layer_exchange.hpp"
 #include "physics/closures/ranz_marshall.hpp"
@@ -16,7 +17,7 @@ TEST(RanzMarshall, SingleGrainCoolingAsInTheReferenceCase) {
                u = 6;
   const double prandtl = mu * gas_cp / k;
   EXPECT_NEAR(nusselt_ranz_marshall(gas_rho * u * d / mu, prandtl), 17.811, 5e-4);
-  const double h = heat_transfer_coefficient(gas_rho * u, d, mu, prandtl, k, 1);
+  const double h = heat_transfer_coefficient(Heat{1}, {gas_rho * u, mu, prandtl, k, 1}, d);
   const double tau = rho * cp * d / (6 * h);
   EXPECT_NEAR(tau, 1.1381, 1e-4);
   const auto temperature = [&](double t) { return 298.15 + 75 * std::exp(-t / tau); };
@@ -33,7 +34,7 @@ TEST(RanzMarshall, TimeConstantsOfTheFurnace) {
   const double flux = 5 * gas_density(1e5, 1500, 0.028);
   const double k = gas_conductivity(mu, cp, prandtl);
   const auto tau = [&](double rho, double heat_capacity, double d, double factor) {
-    return rho * heat_capacity * d / (6 * heat_transfer_coefficient(flux, d, mu, prandtl, k, factor));
+    return rho * heat_capacity * d / (6 * heat_transfer_coefficient(Heat{factor}, {flux, mu, prandtl, k, 1}, d));
   };
   EXPECT_NEAR(tau(800, 850, 0.044, 1), 284, 0.5);
   EXPECT_NEAR(tau(3000, 600, 0.015, 1), 143, 0.5);

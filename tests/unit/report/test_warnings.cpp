@@ -56,6 +56,25 @@ TEST(Warnings, EachLimitIsTold) {
   EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("tuyere-left at Mach 0.45")));
 }
 
+TEST(Warnings, GrainsThatAreNotAtOneTemperatureAreNamed) {
+  nlohmann::json report = quiet_report();
+  report["episodes"][0]["tracer"]["biot_largest"] = {{"coke", 0.25}, {"ore", 0.01}};
+  EXPECT_THAT(warnings(report), ElementsAre(AllOf(HasSubstr("Biot number of coke reaches 0.25"))));
+  report["episodes"][0]["tracer"]["intragrain_resistance"] = true;
+  EXPECT_THAT(warnings(report), IsEmpty());
+}
+
+TEST(Warnings, GasModelsAreComparedByDistance) {
+  nlohmann::json report = quiet_report();
+  auto& compared = report["episodes"][0]["tracer"]["gas_models"];
+  compared["rows"] = {{{"from", 0}, {"to", 0.5}, {"mass_flux", 0.9}, {"pressure", 0.04}},
+                      {{"from", 2.5}, {"to", nullptr}, {"mass_flux", 0.003}, {"pressure", 0.001}}};
+  EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("0.0 to 0.5 m of an inlet: mass flux differs by 90 %"),
+                                            HasSubstr("beyond 2.5 m of an inlet: mass flux differs by 0.3 %")));
+  compared = {{"failed", "the gas would be too fast"}};
+  EXPECT_THAT(warnings(report), ElementsAre(HasSubstr("could not be compared: the gas would be too fast")));
+}
+
 TEST(Warnings, FailedStagesAndRetriesComeFirst) {
   nlohmann::json report = quiet_report();
   report["results"].push_back({{"stage", "DEM"}, {"episode", 2}, {"state", "failed"}, {"sentence", "parcel 7 left"}});

@@ -21,6 +21,23 @@ Campaign hot_shaft() {
   return campaign;
 }
 
+/// Gas of one void fraction everywhere.
+struct GasHere {
+  std::vector<Vector3> mass_flux;
+  std::vector<double> temperature;
+  std::vector<double> void_fraction = std::vector<double>(temperature.size(), 0.44);
+  [[nodiscard]] Exchange::GasFields fields() const { return {mass_flux, temperature, void_fraction}; }
+};
+
+BySpecies capacity_of(const Campaign& campaign, const CellContents& contents) {
+  BySpecies capacity = contents.volume;
+  for (std::size_t s = 0; s < capacity.size(); ++s) {
+    const auto here = volumetric_heat_capacity(campaign.species[s], contents.temperature[s]);
+    for (std::size_t c = 0; c < here.size(); ++c) capacity[s][c] *= here[c];
+  }
+  return capacity;
+}
+
 BedMesh block() {
   testing::BoxMesh box;
   box.cells = {4, 3, 5};
@@ -61,30 +78,47 @@ TEST(Exchange, SingleGrainFollowsThePublishedHeating) {
   const BedMesh mesh = block();
   const CellSpreading kernel(mesh, {}, 0.2);
   Exchange exchange(campaign, kernel);
-  const std::vector<Vector3> mass_flux(mesh.cells(), Vector3{0, 0, 1.1854 * 6});
-  const std::vector<double> gas_temperature(mesh.cells(), 298.15);
+  const GasHere here{std::vector<Vector3>(mesh.cells(), Vector3{0, 0, 1.1854 * 6}),
+                     std::vector<double>(mesh.cells(), 298.15)};
+  const CellContents contents{BySpecies(1, std::vector<double>(mesh.cells(), 1e-3)),
+                              BySpecies(1, std::vector<double>(mesh.cells(), 373.15))};
   for (const auto& [time, expected] : {std::pair{0.1, 366.8415}, std::pair{0.5, 346.4858}, std::pair{1.0, 329.3014}}) {
-    exchange.set_rates(mass_flux, time);
-    const double felt = exchange.felt_temperature(gas_temperature)[0][17];
+    exchange.set_rates(here.fields(), contents, time);
+    const double felt = exchange.felt_temperature(here.temperature)[0][17];
     const double temperature = felt + (373.15 - felt) * exchange.decay()[0][17];
     EXPECT_NEAR(temperature, expected, 1e-4 * (expected - 298.15)) << "after " << time << " s";
   }
 }
 
-TEST(Exchange, SolidsTakeExactlyWhatTheGasGivesForAnyStep) {
-  const Campaign campaign = hot_shaft();
+/// The campaign with properties that change with the temperature, latent heat and resistance inside the grains.
+Campaign real_materials() {
+  Campaign campaign = hot_shaft();
+  campaign.species[0].heat_capacity = PropertyCurve({{300, 800}, {1500, 1700}});
+  campaign.species[1].conductivity = PropertyCurve({{300, 20}, {1500, 2}});
+  campaign.species[1].softening = Softening{1000, 1400, 200e3};
+  campaign.heat->convection = Heat::Convection::gunn;
+  campaign.heat->intragrain_resistance = true;
+  campaign.scene.gas->viscosity_model = Gas::ViscosityModel::sutherland;
+  campaign.scene.gas->sutherland = {1.716e-5, 273, 111};
+  return campaign;
+}
+
+class ExchangeOfMaterials : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ExchangeOfMaterials, SolidsTakeExactlyWhatTheGasGivesForAnyStep) {
+  const Campaign campaign = GetParam() ? real_materials() : hot_shaft();
   const BedMesh mesh = block();
   const CellSpreading kernel(mesh, {}, 0.3);
   Exchange exchange(campaign, kernel);
   const CellContents contents = random_contents(mesh);
-  std::vector<Vector3> mass_flux(mesh.cells());
-  std::vector<double> gas_temperature(mesh.cells());
+  GasHere here{std::vector<Vector3>(mesh.cells()), std::vector<double>(mesh.cells())};
+  auto& gas_temperature = here.temperature;
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    mass_flux[c] = {noise(31000 + c), 0, 2 * noise(32000 + c)};
+    here.mass_flux[c] = {noise(31000 + c), 0, 2 * noise(32000 + c)};
     gas_temperature[c] = 300 + 2000 * noise(33000 + c);
   }
   for (const double step : {1e-5, 1e-2, 20.0, 1e4, 1e7}) {  // k dt from 1e-8 to above 1e3
-    exchange.set_rates(mass_flux, step);
+    exchange.set_rates(here.fields(), contents, step);
     const SolidsExchange solids = exchange.solids(contents);
     double given = 0;
     double turnover = 0;
@@ -95,15 +129,34 @@ TEST(Exchange, SolidsTakeExactlyWhatTheGasGivesForAnyStep) {
     const BySpecies felt = exchange.felt_temperature(gas_temperature);
     double taken = 0;
     for (std::size_t s = 0; s < 2; ++s) {
-      const Species& species = campaign.species[s];
+      const BySpecies capacity = capacity_of(campaign, contents);
       for (std::size_t c = 0; c < mesh.cells(); ++c) {
-        const double capacity = contents.volume[s][c] * species.density * species.heat_capacity.at(293);
-        taken -= capacity * (felt[s][c] - contents.temperature[s][c]) * std::expm1(std::log(exchange.decay()[s][c]));
+        taken -=
+            capacity[s][c] * (felt[s][c] - contents.temperature[s][c]) * std::expm1(std::log(exchange.decay()[s][c]));
       }
     }
     // With a tiny step the decay itself rounds: 1 - exp(-k dt) is known to round-off over k dt.
     EXPECT_NEAR(taken, given, 1e-11 * turnover + 1e-15 * turnover / std::min(1.0, step * 1e-3)) << "step " << step;
   }
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, ExchangeOfMaterials, ::testing::Bool());
+
+TEST(Exchange, BiotNumbersAreReportedAndCorrected) {
+  Campaign campaign = hot_shaft();
+  const BedMesh mesh = block();
+  const CellSpreading kernel(mesh, {}, 0.3);
+  const CellContents contents = random_contents(mesh);
+  const GasHere here{std::vector<Vector3>(mesh.cells(), Vector3{0, 0, 2}), std::vector<double>(mesh.cells(), 1500)};
+  Exchange plain(campaign, kernel);
+  plain.set_rates(here.fields(), contents, 10);
+  const double h = plain.coefficient()[0][3];
+  EXPECT_NEAR(plain.largest_biot()[0], h * 0.044 / 6 / 5, 1e-12);
+  campaign.heat->intragrain_resistance = true;
+  Exchange corrected(campaign, kernel);
+  corrected.set_rates(here.fields(), contents, 10);
+  EXPECT_NEAR(corrected.coefficient()[0][3], 1 / (1 / h + 0.044 / 50), 1e-9);
+  EXPECT_DOUBLE_EQ(corrected.largest_biot()[0], plain.largest_biot()[0]);
 }
 
 TEST(Exchange, MeanDecayIsSmoothThroughZero) {
@@ -144,7 +197,7 @@ TEST_F(ConductionTest, KeepsTheHeatAndTheBounds) {
     }
   }
   for (const double step : {1.0, 1e3, 1e6}) {
-    const Conduction::Result result = conduction.advance(contents, packed, step);
+    const Conduction::Result result = conduction.advance(contents, capacity_of(campaign_, contents), packed, step);
     EXPECT_NEAR(heat(contents, result.change), 0, 1e-12 * heat(contents, contents.temperature)) << "step " << step;
     EXPECT_GT(result.iterations, 0);
     for (std::size_t s = 0; s < 2; ++s) {
@@ -156,6 +209,62 @@ TEST_F(ConductionTest, KeepsTheHeatAndTheBounds) {
       }
     }
   }
+}
+
+TEST_F(ConductionTest, EveryLawKeepsTheHeat) {
+  const CellContents contents = random_contents(mesh_);
+  campaign_.species[0].heat_capacity = PropertyCurve({{300, 800}, {1500, 1700}});
+  campaign_.species[0].conductivity = PropertyCurve({{300, 1}, {1500, 4}});
+  for (const auto law :
+       {Heat::BedConduction::carson, Heat::BedConduction::zehner_bauer_schluender, Heat::BedConduction::mixture}) {
+    campaign_.heat->bed_conduction = law;
+    const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+    BySpecies packed = contents.volume;
+    for (auto& volume : packed) {
+      for (double& v : volume) v *= 2;
+    }
+    const BySpecies capacity = capacity_of(campaign_, contents);
+    const auto result = conduction.advance(contents, capacity, packed, 1e4);
+    double gained = 0, turnover = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+        gained += capacity[s][c] * result.change[s][c];
+        turnover += capacity[s][c] * std::abs(result.change[s][c]);
+      }
+    }
+    EXPECT_GT(turnover, 0);
+    EXPECT_LT(std::abs(gained), 1e-11 * turnover);
+    EXPECT_EQ(result.walls, 0);
+  }
+}
+
+TEST_F(ConductionTest, MixtureCouplesSpeciesOfNeighbours) {
+  campaign_.heat->bed_conduction = Heat::BedConduction::mixture;
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  CellContents contents;
+  for (std::size_t s = 0; s < 2; ++s) {
+    contents.volume.emplace_back(mesh_.cells(), 0.28 * mesh_.cell_volume[0]);
+    contents.temperature.emplace_back(mesh_.cells(), s == 0 ? 1000.0 : 400.0);
+  }
+  const auto change = conduction.advance(contents, capacity_of(campaign_, contents), contents.volume, 1e9).change;
+  // In the end both species have the mixture's temperature.
+  const double mixed = (800 * 1000 + 3000 * 400) / 3800.0;
+  EXPECT_NEAR(contents.temperature[0][7] + change[0][7], mixed, 0.02);
+  EXPECT_NEAR(contents.temperature[1][7] + change[1][7], mixed, 0.02);
+}
+
+TEST_F(ConductionTest, SolidsAtWallsLoseWhatTheLedgerIsTold) {
+  campaign_.scene.heat_loss = WallHeatLoss{20, 300, WallHeatLoss::On::solids};
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  CellContents contents = random_contents(mesh_);
+  const BySpecies capacity = capacity_of(campaign_, contents);
+  const auto result = conduction.advance(contents, capacity, contents.volume, 100);
+  double gained = 0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    for (std::size_t c = 0; c < mesh_.cells(); ++c) gained += capacity[s][c] * result.change[s][c];
+  }
+  EXPECT_GT(result.walls, 0);
+  EXPECT_NEAR(gained, -result.walls, 1e-11 * result.walls);
 }
 
 TEST_F(ConductionTest, SlabBetweenTwoPlatesHasALinearSteadyProfile) {
@@ -189,7 +298,7 @@ TEST_F(ConductionTest, SpeciesInLayersMeetThroughTheExchangeOfTheRecipe) {
     contents.temperature.emplace_back(mesh_.cells(), s == 0 ? 1000.0 : 400.0);
   }
   const double step = 50;
-  const auto change = conduction.advance(contents, contents.volume, step).change;
+  const auto change = conduction.advance(contents, capacity_of(campaign_, contents), contents.volume, step).change;
   const double k = 5 * (3 * solids - 1) / 2;
   const double exchange = 12 / (0.7 * (0.4 / k + 0.3 / k));
   const double coke = share_[0] * solids * 800 * 700;

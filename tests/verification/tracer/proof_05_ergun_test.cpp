@@ -99,8 +99,12 @@ TEST_P(EveryGasModel, HotAndColdHalvesOfAColumn) {
   EXPECT_NEAR(at_middle, middle + quarter, 5e-3 * (inlet - outlet_pressure));
 }
 
-INSTANTIATE_TEST_SUITE_P(Ergun, EveryGasModel, ::testing::Values(TracerSettings::GasModel::darcy_forchheimer),
-                         [](const auto&) { return std::string("DarcyForchheimer"); });
+INSTANTIATE_TEST_SUITE_P(
+    Ergun, EveryGasModel,
+    ::testing::Values(TracerSettings::GasModel::darcy_forchheimer, TracerSettings::GasModel::navier_stokes),
+    [](const auto& model) {
+      return std::string(model.param == TracerSettings::GasModel::navier_stokes ? "NavierStokes" : "DarcyForchheimer");
+    });
 
 }  // namespace
 }  // namespace cupola
