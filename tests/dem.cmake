@@ -15,33 +15,21 @@ add_dependencies(dem_program cupola-dem)
 target_compile_definitions(dem_program PRIVATE CUPOLA_DEM="$<TARGET_FILE:cupola-dem>" CUPOLA_MPIEXEC="${MPIEXEC_EXECUTABLE}"
                                                CUPOLA_TINY="${CMAKE_SOURCE_DIR}/cases/tiny/campaign.yaml")
 
-# Proofs against exact answers and published figures (docs/verification_dem.md), each a test of its own: with the engine alone,
-# and with the gas.
-add_executable(dem_proofs verification/dem/proof_01_collisions.cpp verification/dem/proof_02_sliding.cpp
-                          verification/dem/proof_03_packing.cpp verification/dem/proof_04_hopper.cpp
+# Proofs against exact answers and published figures (docs/verification_dem.md), each a test of its own: with the engine alone.
+
+add_executable(dem_proofs verification/dem/proof_01_collisions.cpp
+                          verification/dem/proof_03_packing.cpp
                           verification/dem/proof_09_momentum.cpp
                           verification/dem/proof_scene.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
 cupola_own_code(dem_proofs)
 target_link_libraries(dem_proofs PRIVATE cupola_dem GTest::gtest)
-add_executable(dem_gas_proofs verification/dem/proof_gas.cpp verification/dem/proof_scene.cpp unit/dem/box_scene.cpp)
-cupola_own_code(dem_gas_proofs)
-target_link_libraries(dem_gas_proofs PRIVATE cupola_dem_stage cupola_foam_environment GTest::gtest GTest::gtest_main)
 
 function(dem_proof name program filter ranks)
   cupola_mpi_test(dem_proof_${name} LABEL verification RANKS ${ranks} PROGRAM ${program} ARGUMENTS --gtest_filter=${filter})
 endfunction()
 dem_proof(01_two_parcels dem_proofs Collisions.TwoParcels* 1)
 dem_proof(01_wall dem_proofs Collisions.AParcelRebounds* 1)
-dem_proof(01_bounces dem_proofs Collisions.HeightsOfBounces* 1)
 dem_proof(01_coarse_graining dem_proofs Collisions.RelativeOverlap* 1)
-dem_proof(02_sliding dem_proofs Sliding.* 1)
-dem_proof(03_packing dem_proofs Packing.GrainsWithout* 1)
 dem_proof(03_packing_of_parcels dem_proofs Packing.ParcelsPack* 1)
-dem_proof(03_packing_of_the_furnace dem_proofs Packing.TheFurnaces* 1)
-dem_proof(04_beverloo dem_proofs Hopper.* 1)
-dem_proof(04_angle_of_repose dem_proofs Repose.* 1)
-dem_proof(05_terminal_velocity dem_gas_proofs TerminalVelocity.* 1)
-dem_proof(06_ergun_bed dem_gas_proofs FixedBed.* 1)
-dem_proof(09_momentum_with_gas dem_gas_proofs Momentum.* 1)
 dem_proof(09_impulse_1 dem_proofs Impulse.* 1)
 dem_proof(09_impulse_2 dem_proofs Impulse.* 2)

@@ -174,9 +174,10 @@ json how_sure(const json& report) {
     if (const auto heat = number_at(prediction, "/energy_residual")) {
       parts.push_back(fmt::format("Its heat balance closes to {} of the blast's.", closure(*heat)));
     }
+    const auto error = number_at(prediction, "/expected_error");
     return entry(question,
-                 fmt::format("Temperatures are expected to be {:.0f} % off",
-                             100 * number_at(prediction, "/expected_error").value_or(NAN)),
+                 error ? fmt::format("Temperatures are expected to be {:.0f} % off", 100 * *error)
+                       : std::string("Not known: predictions have not been compared with marches yet"),
                  sentences(parts));
   }
   std::string answer = "Nothing to judge yet";

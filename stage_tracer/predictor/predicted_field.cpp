@@ -42,6 +42,9 @@ PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campai
     field_ = expected_field(mesh, campaign);
   }
   const std::vector<bool> persistent = persistent_species(campaign);
+  for (const Species& species : campaign.species) {
+    if (species.softening) lowest_ore_ = std::max(lowest_ore_, species.none_below);
+  }
   for (std::size_t s = 0; s < persistent.size(); ++s) {
     volume_rate_ += field_.charge.volume_rate[s];
     if (persistent[s]) charged_share_ += field_.charge.volume_share[s];
@@ -66,7 +69,25 @@ PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campai
 }
 
 std::vector<double> PredictedField::share(const std::vector<double>& ore_temperature) const {
-  return persistent_share(mesh_, campaign_, charged_share_, ore_temperature);
+  std::vector<double> f = persistent_share(mesh_, campaign_, charged_share_, ore_temperature);
+  const Softening* softening = nullptr;
+  for (const Species& species : campaign_.species) {
+    if (species.softening) softening = &*species.softening;
+  }
+  if (softening == nullptr || ore_temperature.empty()) return f;
+  for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+    const auto number = static_cast<std::int64_t>(c);
+    const auto at_face = [&](std::size_t side) {
+      const std::int64_t other = mesh_.across(number, mesh_.cell_faces[c][side]);
+      return other >= 0 && field_.bed[other] ? 0.5 * (ore_temperature[c] + ore_temperature[other]) : ore_temperature[c];
+    };
+    const double lower = at_face(4);
+    const double upper = at_face(5);
+    const bool crossed = upper < softening->melted && lower > softening->melted;
+    if (!field_.bed[c] || !crossed || mesh_.cell_centre[c][2] < lowest_ore_) continue;
+    f[c] = charged_share_ + (1 - charged_share_) * (lower - softening->melted) / (lower - upper);
+  }
+  return f;
 }
 
 void PredictedField::follow(const std::vector<double>& ore_temperature) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 
 #include "stage_tracer/dem_result.hpp"
@@ -23,12 +24,15 @@ class PredictedField {
   [[nodiscard]] const GranularField& field() const { return field_; }
 
  private:
+  /// f of the tracer stage (`persistent_share`), but in the cell in which the ore melts it is the mean over the cell's
+  /// height: what iterates on the zone must not jump when the zone passes a cell's centre.
   [[nodiscard]] std::vector<double> share(const std::vector<double>& ore_temperature) const;
 
   const BedMesh& mesh_;
   const Campaign& campaign_;
-  double charged_share_ = 0;  ///< of the persistent species
-  double volume_rate_ = 0;    ///< m3/s, all species
+  double charged_share_ = 0;                                      ///< of the persistent species
+  double volume_rate_ = 0;                                        ///< m3/s, all species
+  double lowest_ore_ = -std::numeric_limits<double>::infinity();  ///< m, `none_below`
   GranularField field_;
   std::vector<double> sink_;  ///< 1/s
   std::optional<SurrogateFlux> surrogate_;

@@ -75,10 +75,6 @@ class Predictor {
   BedState bed_;
 };
 
-/// Expected relative error of a prediction's temperatures, rms(T - T_steady)/rms(T_steady - 293 K): what was measured
-/// against marches (docs/predictor.md), with a DEM result and without.
-double expected_error(bool with_dem);
-
 /// Makes the prediction of a task of kind `predict` and writes its `result.hdf`. Every rank runs it.
 /// @throws Failure
 ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task& task);
