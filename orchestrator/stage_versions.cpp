@@ -1,5 +1,6 @@
 #include "orchestrator/stage_versions.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>

@@ -153,6 +153,8 @@ void GasCoupling::save(HdfWriter& file) const {
   file.write("Gas/mass_flux", mass_flux_);
   file.write("Gas/squared_pressure", flow_.warm_start().squared_pressure);
   file.write("Gas/face_mass_flux", flow_.warm_start().face_mass_flux);
+  file.write("Gas/face_pressure", flow_.face_pressure());
+  file.write("Gas/inertia_over_drag", flow_.inertia_over_drag());
   file.write("Gas/counters", std::vector<std::int64_t>{solves_, cells_at_floor_});
   file.write("Gas/numbers", std::vector<double>{momentum_residual_, seconds_since_});
 }
@@ -164,7 +166,8 @@ void GasCoupling::load(const HdfReader& file) {
   gradient_ = file.doubles("Gas/gradient");
   speed_ = file.doubles("Gas/speed");
   mass_flux_ = file.doubles("Gas/mass_flux");
-  flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
+  flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")},
+                 file.doubles("Gas/face_pressure"), file.doubles("Gas/inertia_over_drag"));
   const auto counters = file.integers("Gas/counters", 2);
   solves_ = counters[0];
   cells_at_floor_ = counters[1];

@@ -106,7 +106,10 @@ void ChargePlan::divide_into_zones(const Campaign& campaign, const std::vector<d
     flow[zone->second] += place.volume_rate;
     whole += place.volume_rate;
   }
-  if (known.size() < 2) {
+  const auto whole_recipe = [](const std::vector<double>& zone) {
+    return std::all_of(zone.begin(), zone.end(), [](double lies) { return lies > 0; });
+  };
+  if (known.empty() || (known.size() == 1 && whole_recipe(matrix.front()))) {
     // The same everywhere.
     matrix.assign(1, std::vector<double>(layers, 1.0));
     flow.assign(1, 1.0);

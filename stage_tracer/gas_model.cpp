@@ -101,13 +101,16 @@ void GasModel::solve_flow(const BedState& bed, double tolerance, int most_iterat
 void GasModel::save(HdfWriter& file) const {
   file.write("Gas/squared_pressure", flow_->warm_start().squared_pressure);
   file.write("Gas/face_mass_flux", flow_->warm_start().face_mass_flux);
+  file.write("Gas/face_pressure", flow_->face_pressure());
+  file.write("Gas/inertia_over_drag", flow_->inertia_over_drag());
   file.write("Gas/temperature", temperature_);
   file.write("Gas/last_resistance", last_resistance_);
   file.write("Gas/counts", std::vector<std::int64_t>{flow_solves_, flow_skips_, energy_solves_});
 }
 
 void GasModel::restore(const HdfReader& file) {
-  flow_->restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")});
+  flow_->restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")},
+                 file.doubles("Gas/face_pressure"), file.doubles("Gas/inertia_over_drag"));
   temperature_ = file.doubles("Gas/temperature");
   if (energy_) energy_->restore(temperature_);
   last_resistance_ = file.doubles("Gas/last_resistance");

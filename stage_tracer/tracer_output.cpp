@@ -36,11 +36,14 @@ void TracerStage::write_output(bool checkpoint_now, bool last) {
     write_checkpoint();
     last_checkpoint_ = wall_seconds();
   }
-  if (foam_.rank() != 0) return;
   const auto running = clock_.measure("output");
   const long interval =
       std::max(1L, steps_.count / most_history_lines + (steps_.count % most_history_lines != 0 ? 1 : 0));
-  if (step_ % interval == 0 || last) append_history(folder_, history_line());
+  if (step_ % interval == 0 || last) {
+    const nlohmann::json line = history_line();  // every rank does its share of it
+    if (foam_.rank() == 0) append_history(folder_, line);
+  }
+  if (foam_.rank() != 0) return;
   const bool first = last_progress_ == 0;
   if (wall - last_progress_ < seconds_between_progress && !first && !last && !checkpoint_now) return;
   Progress progress;

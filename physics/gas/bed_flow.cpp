@@ -106,10 +106,17 @@ const std::vector<double>& BedFlow::inertia_over_drag() const { return state_->i
 const BedFlow::WarmStart& BedFlow::warm_start() const { return state_->start; }
 BedFlow::Model BedFlow::model() const { return state_->model; }
 
-void BedFlow::restore(WarmStart start) {
+const std::vector<double>& BedFlow::face_pressure() const { return state_->face_pressure; }
+
+void BedFlow::restore(WarmStart start, std::vector<double> face_pressure, std::vector<double> inertia) {
   State& state = *state_;
   state.start = std::move(start);
   state.mass_flux = state.geometry.cell_vectors(state.mesh, state.start.face_mass_flux);
+  state.set_pressure();
+  state.face_pressure = std::move(face_pressure);
+  state.gradient = FaceGeometry::surface_gradient(state.mesh, state.face_pressure);
+  state.inertia = std::move(inertia);
+  state.inertia_largest = state.inertia.empty() ? 0 : *std::max_element(state.inertia.begin(), state.inertia.end());
   state.cold = false;
 }
 

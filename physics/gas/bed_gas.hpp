@@ -58,7 +58,10 @@ class BedFlow {
     std::vector<double> face_mass_flux;    ///< kg/s, all faces
   };
   [[nodiscard]] const WarmStart& warm_start() const;
-  void restore(WarmStart start);
+  /// Pressure at the faces, Pa: with the warm start all that `restore` needs.
+  [[nodiscard]] const std::vector<double>& face_pressure() const;
+  /// @param face_pressure and @param inertia (over drag, all cells) of the flow that is restored
+  void restore(WarmStart start, std::vector<double> face_pressure, std::vector<double> inertia);
 
   /// Gas in an inlet's opening at the mean pressure there, for the report and the choking check (MODEL 13).
   struct NamedInlet {

@@ -213,11 +213,15 @@ double BedFlow::State::step(BedFlow::Result& result, double tolerance) {
   return std::sqrt(std::max(changed / all, changed_psi / all_psi));
 }
 
-void BedFlow::State::finish() {
+void BedFlow::State::set_pressure() {
   pressure.resize(mesh.cells());
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
     pressure[cell] = std::sqrt(2 * (start.squared_pressure[cell] + psi_outlet));
   }
+}
+
+void BedFlow::State::finish() {
+  set_pressure();
   const auto flows = openings.mass_flow(start.face_mass_flux);
   for (std::size_t i = 0; i < flows.size(); ++i) {
     if (flows[i] > 0 || openings.inlets()[i].given != Inlet::Given::pressure) continue;

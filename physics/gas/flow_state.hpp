@@ -28,6 +28,7 @@ struct BedFlow::State {
   /// What the inlets blow, by the present fluxes.
   void count_blast();
   /// Pressure, its gradient and what inertia is to drag, from the last step.
+  void set_pressure();
   void finish();
 
   const BedMesh& mesh;

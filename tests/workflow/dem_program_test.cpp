@@ -173,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(Ranks, DemProgram, testing::Values(1, 2));
 
 TEST(DemProgram, AWrongTaskIsRefused) {
   const TemporaryFolder temporary;
-  EXPECT_EQ(wait_for(start({CUPOLA_DEM, (temporary.path() / "nowhere").string()})), 74);
+  EXPECT_EQ(wait_for(start({CUPOLA_DEM, (temporary.path() / "nowhere").string()})), 65);
   Task task = tiny_task(1);
   task.kind = TaskKind::tracer;
   write_task(temporary.path(), task);

@@ -193,7 +193,7 @@ TEST(Limits, AcceptThePapersOwnContactsAndStopWithAdviceBeyond) {
     FAIL() << "an overlap of 0.31 R was accepted";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::diverged);
-    EXPECT_THAT(failure.what(), testing::HasSubstr("0.31"));
+    EXPECT_THAT(failure.what(), ::testing::HasSubstr("0.31"));
     EXPECT_EQ(failure.where().at("step"), "77");
     EXPECT_EQ(failure.advice().at("contacts.youngs_modulus"), "1e+08 Pa");
     EXPECT_TRUE(failure.advice().contains("dem.rayleigh_fraction"));
@@ -232,7 +232,7 @@ TEST(TimeStep, AboveTheStableOneIsRefusedWithTheNumber) {
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code(), ExitCode::wrong_input);
     EXPECT_EQ(failure.where().at("key"), "dem.time_step");
-    EXPECT_THAT(failure.what(), testing::HasSubstr("stable step"));
+    EXPECT_THAT(failure.what(), ::testing::HasSubstr("stable step"));
   }
 }
 

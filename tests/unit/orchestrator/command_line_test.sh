@@ -36,7 +36,7 @@ expect 65 "$work/wrong.yaml:" "$cupola" validate "$work/wrong.yaml"
 expect 65 '"ok": false' "$cupola" validate "$work/wrong.yaml" --json
 expect 65 "tracer.duration" "$cupola" run "$work/wrong.yaml" --run-dir "$work/run"
 # What the plan refuses is refused by both, and explained all the same.
-sed -e 's/mass_flow: 0.22 kg/mass_flow: 30 kg/' "$tiny" > "$work/choked.yaml"
+sed -e 's/size: \[0.13 m, 0.13 m\]/size: [0.03 m, 0.03 m]/' "$tiny" > "$work/choked.yaml"
 expect 65 "tuyere-left" "$cupola" run "$work/choked.yaml" --run-dir "$work/run"
 expect 65 "This cannot be run" "$cupola" explain "$work/choked.yaml"
 expect 65 '"refusals"' "$cupola" explain "$work/choked.yaml" --json

@@ -60,7 +60,8 @@ cupola::EpisodeFolders write_episode(const std::filesystem::path& folder, const 
   tracer.cell_data("solids_velocity", {0, 0, 9 * episode.velocity, 0, 0, episode.velocity}, 3);
   tracer.cell_data("volume_share.coke", {0.5, 0.5});
   tracer.cell_data("volume_share.ore", {0.5, 0.5});
-  tracer.cell_data("solids_temperature", {2 * episode.temperature, episode.temperature});
+  for (const char* mean : {"solids_temperature", "solids_temperature.coke", "solids_temperature.ore"})
+    tracer.cell_data(mean, {2 * episode.temperature, episode.temperature});
   tracer.hdf().write("CohesiveZone/height_melted", std::vector<double>{episode.height, episode.height});
   tracer.hdf().write("CohesiveZone/area", std::vector<double>{1, 1});
   tracer.summary(

@@ -70,7 +70,9 @@ TEST(ChargePlan, RingsKeepTheMassOfEachLayerAndTheFlowOfEachPlace) {
     for (const auto& piece : plan.pieces(0, 50, zone)) {
       layer[piece.layer] += places[place].volume_rate * (piece.to - piece.from);
       seconds += piece.to - piece.from;
-      if (zone == 0) EXPECT_EQ(piece.layer, 0U);
+      if (zone == 0) {
+        EXPECT_EQ(piece.layer, 0U);
+      }
     }
     EXPECT_NEAR(seconds, 50, 1e-9);  // a place is never idle: the surface stays level
   }

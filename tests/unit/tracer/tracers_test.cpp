@@ -10,6 +10,7 @@
 #include "stage_tracer/displacement.hpp"
 #include "stage_tracer/ledger.hpp"
 #include "stage_tracer/motion.hpp"
+#include "stage_tracer/random.hpp"
 #include "stage_tracer/seeding.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/furnaces.hpp"
@@ -108,8 +109,12 @@ TEST_F(TracersTest, SortingByCellKeepsEachTracerTogetherAndTheOrderWithinACell) 
     EXPECT_EQ(tracers.volume[i], 1e-3 * id);
     EXPECT_EQ(tracers.life[i], 1 + id);
     EXPECT_EQ(tracers.temperature[i], 300 + id);
-    if (i > 0 && tracers.point[i].cell == tracers.point[i - 1].cell) EXPECT_GT(tracers.id[i], tracers.id[i - 1]);
-    if (i > 0) EXPECT_GE(tracers.point[i].cell, tracers.point[i - 1].cell);
+    if (i > 0 && tracers.point[i].cell == tracers.point[i - 1].cell) {
+      EXPECT_GT(tracers.id[i], tracers.id[i - 1]);
+    }
+    if (i > 0) {
+      EXPECT_GE(tracers.point[i].cell, tracers.point[i - 1].cell);
+    }
   }
 }
 
@@ -233,8 +238,10 @@ TEST_F(TracersTest, RelaxationAloneEvensOutAnExcess) {
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
     if (!bed_[c]) continue;
     for (int k = 0; k < 27; ++k) {
-      const Vector3 at{(k % 3 + 0.5) / 3, (k / 3 % 3 + 0.5) / 3, (k / 9 + 0.5) / 3};
-      tracers.add(id++, 0, {static_cast<std::int64_t>(c), at},
+      // Anywhere in the cell: tracers in rows would all cross a face at once.
+      const auto at = random_uniform(3, RandomUse::seeding, static_cast<std::uint64_t>(id));
+      const auto height = random_uniform(5, RandomUse::seeding, static_cast<std::uint64_t>(id));
+      tracers.add(id++, 0, {static_cast<std::int64_t>(c), Vector3{at[0], at[1], height[0]}},
                   0.5 / 27 * mesh_.cell_volume[c] * (mesh_.cell_centre[c][2] > 0.7 ? 1.1 : 0.9), 1);
     }
   }
@@ -270,7 +277,9 @@ TEST_F(TracersTest, DisplacementKeepsOutOfExcludedZones) {
     double lowest = 1.4;
     for (std::size_t c = 0; c < mesh_.cells(); ++c) {
       if (bed_[c] && !displaced[c]) lowest = std::min(lowest, mesh_.cell_centre[c][2]);
-      if (!bed_[c]) EXPECT_FALSE(displaced[c]);
+      if (!bed_[c]) {
+        EXPECT_FALSE(displaced[c]);
+      }
     }
     return lowest;
   };

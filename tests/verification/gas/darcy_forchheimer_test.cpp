@@ -218,7 +218,7 @@ TEST_F(Shaft, SumOfPressureGradientsIsTheSurfaceIntegral) {
 TEST_F(Shaft, GoesOnFromItsWarmStartBitByBit) {
   flow.solve(bed, temperature, 1e-3, 100);
   DarcyForchheimer again(scene.foam, scene.mesh, campaign);
-  again.restore(flow.warm_start());
+  again.restore(flow.warm_start(), flow.face_pressure(), flow.inertia_over_drag());
   for (double& t : temperature) t *= 1.02;
   flow.solve(bed, temperature, 1e-3, 1);
   again.solve(bed, temperature, 1e-3, 1);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "physics/closures/convection.hpp"
 #include "physics/closures/gas_properties.hpp"
-#include "physics/closures/ranz_marshall.hpp"
 #include "physics/mesh/bed_mesh.hpp"
 #include "physics/plan/charge.hpp"
 #include "schemas/campaign_reader.hpp"
@@ -131,8 +131,9 @@ TEST(Predictor, CounterCurrentProfileIsTheExactExponential) {
   const Species& pebble = campaign.species[0];
   const Gas& air = *campaign.scene.gas;
   const double mass_flux = 0.2 / 0.16;
-  const double h = heat_transfer_coefficient(mass_flux, pebble.diameter, air.viscosity, air.prandtl,
-                                             gas_conductivity(air.viscosity, air.heat_capacity, air.prandtl), 1.0);
+  const GasAround around{mass_flux, air.viscosity, air.prandtl,
+                         gas_conductivity(air.viscosity, air.heat_capacity, air.prandtl), 1 - expected_packing};
+  const double h = heat_transfer_coefficient(*campaign.heat, around, pebble.diameter);
   const double exchange = h * 6 * expected_packing / pebble.diameter;
   const double solids_flow = campaign.descent_rate * expected_packing * pebble.density * 500;
   const double exact = exchange * (1 / solids_flow - 1 / (mass_flux * air.heat_capacity));
