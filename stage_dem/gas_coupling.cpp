@@ -167,7 +167,7 @@ void GasCoupling::load(const HdfReader& file) {
   speed_ = file.doubles("Gas/speed");
   mass_flux_ = file.doubles("Gas/mass_flux");
   flow_.restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")},
-                 file.doubles("Gas/face_pressure"), file.doubles("Gas/inertia_over_drag"));
+                file.doubles("Gas/face_pressure"), file.doubles("Gas/inertia_over_drag"));
   const auto counters = file.integers("Gas/counters", 2);
   solves_ = counters[0];
   cells_at_floor_ = counters[1];

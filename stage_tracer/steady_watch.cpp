@@ -46,7 +46,7 @@ void SteadyWatch::add(const std::vector<double>& capacity, const std::vector<dou
 void SteadyWatch::join_neighbours() {
   for (std::size_t i = 0; i + 1 < windows_.size(); i += 2) {
     blend(windows_[i], 1, windows_[i + 1], 1);
-    windows_[i / 2] = std::move(windows_[i]);
+    if (i > 0) windows_[i / 2] = std::move(windows_[i]);  // a vector moved onto itself would be empty
   }
   windows_.resize(windows_.size() / 2);
   joined_ *= 2;

@@ -26,7 +26,7 @@ class SteadyWatch {
   /// Adds the mean field of a window. @param capacity J/K, @param temperature K, both all cells; 0 where left out
   void add(const std::vector<double>& capacity, const std::vector<double>& temperature);
 
-  /// Nothing before eight windows, and where the changes do not shrink.
+  /// Nothing before twenty windows, and where the changes do not shrink.
   [[nodiscard]] std::optional<RemainingChange> remaining() const;
 
   /// How many times in a row, the last among them, the remaining change was known and at most `wanted`.
@@ -36,7 +36,7 @@ class SteadyWatch {
   [[nodiscard]] std::vector<double> row() const;
   void restore(const std::vector<double>& row);
 
-  static constexpr std::size_t least_windows = 8;
+  static constexpr std::size_t least_windows = 20;
   static constexpr std::size_t most_windows = 64;
 
  private:

@@ -36,8 +36,7 @@ void DragTangents::update(const BedState& bed, const std::vector<double>& gas_te
     const double viscosity = gas_viscosity(gas_, gas_temperature[cell]);
     const auto law = [&](double flux) {
       return specific_gas_constant * gas_temperature[cell] *
-             drag_resistance(law_, void_fraction, bed.grain_diameter[cell], viscosity, 1, flux,
-                             bed.drag_factor[cell]);
+             drag_resistance(law_, void_fraction, bed.grain_diameter[cell], viscosity, 1, flux, bed.drag_factor[cell]);
     };
     const double step = 1e-3 * std::max(speed[cell], 1e-3 * usual_speed);
     tangent.value = law(speed[cell]);

@@ -124,64 +124,62 @@ const std::vector<Mistake> mistakes{
     {"open bracket", "converged: {", "converged: [", {R"(26:49: this is not YAML: illegal flow end)"}},
     {"second document", "heat: {}", "heat: {}\n---", {R"(1:1: one document was expected, but a second one begins with `---`)"}},
 };
-      // clang-format on
+// clang-format on
 
-      class CampaignMistake : public testing::TestWithParam<Mistake> {};
+class CampaignMistake : public testing::TestWithParam<Mistake> {};
 
-      TEST_P(CampaignMistake, IsNamedWithPlaceKeyAndCure) {
-        const auto& mistake = GetParam();
-        EXPECT_THAT(complaints_about(test::spoilt(mistake.old_text, mistake.new_text)),
-                    testing::ElementsAreArray(mistake.complaints));
-      }
+TEST_P(CampaignMistake, IsNamedWithPlaceKeyAndCure) {
+  const auto& mistake = GetParam();
+  EXPECT_THAT(complaints_about(test::spoilt(mistake.old_text, mistake.new_text)),
+              testing::ElementsAreArray(mistake.complaints));
+}
 
-      INSTANTIATE_TEST_SUITE_P(All, CampaignMistake, testing::ValuesIn(mistakes), [](const auto& info) {
-        std::string name = info.param.name;
-        for (auto& letter : name) {
-          if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
-        }
-        return name;
-      });
+INSTANTIATE_TEST_SUITE_P(All, CampaignMistake, testing::ValuesIn(mistakes), [](const auto& info) {
+  std::string name = info.param.name;
+  for (auto& letter : name) {
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0) letter = '_';
+  }
+  return name;
+});
 
-      TEST(CampaignReader, AcceptsTheBaseCampaign) {
-        EXPECT_THAT(complaints_about(test::base_campaign), testing::IsEmpty());
-      }
+TEST(CampaignReader, AcceptsTheBaseCampaign) { EXPECT_THAT(complaints_about(test::base_campaign), testing::IsEmpty()); }
 
-      TEST(CampaignReader, ListsAllMistakesOfAFileInItsOrder) {
-        auto text = test::spoilt("mass_flow:", "mas_flow:");
-        const auto replace = [&](const std::string& from, const std::string& to) {
-          text.replace(text.find(from), from.size(), to);
-        };
-        replace("melted: 1675 K", "melted: 1400 K");
-        replace("{ore: 600 kg}", "{orr: 600 kg}");
-        replace("at_most: 20 s", "at_most: 5 m");
-        EXPECT_THAT(complaints_about(text),
-                    testing::ElementsAre(testing::StartsWith("8:66: scene.gas.inlets[0].mas_flow: "),
-                                         testing::StartsWith("12:112: species.ore.softening.melted: "),
-                                         testing::StartsWith("21:57: charging.layers[1].orr: "),
-                                         testing::StartsWith("25:23: dem.stop.at_most: ")));
-      }
+TEST(CampaignReader, ListsAllMistakesOfAFileInItsOrder) {
+  auto text = test::spoilt("mass_flow:", "mas_flow:");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("melted: 1675 K", "melted: 1400 K");
+  replace("{ore: 600 kg}", "{orr: 600 kg}");
+  replace("at_most: 20 s", "at_most: 5 m");
+  EXPECT_THAT(complaints_about(text),
+              testing::ElementsAre(testing::StartsWith("8:66: scene.gas.inlets[0].mas_flow: "),
+                                   testing::StartsWith("12:112: species.ore.softening.melted: "),
+                                   testing::StartsWith("21:57: charging.layers[1].orr: "),
+                                   testing::StartsWith("25:23: dem.stop.at_most: ")));
+}
 
-      TEST(CampaignReader, RefusesWhatIsNoSectionOfKeys) {
-        EXPECT_THAT(complaints_about(""), testing::ElementsAre("1:1: the file is empty"));
-        EXPECT_THAT(complaints_about("# nothing\n"), testing::ElementsAre("1:1: the file is empty"));
-        const auto no_keys = "1:1: expected a section of keys, beginning with `campaign: name`";
-        for (const auto* text : {"[1, 2]", "null", "campaign"})
-          EXPECT_THAT(complaints_about(text), testing::ElementsAre(no_keys)) << text;
-      }
+TEST(CampaignReader, RefusesWhatIsNoSectionOfKeys) {
+  EXPECT_THAT(complaints_about(""), testing::ElementsAre("1:1: the file is empty"));
+  EXPECT_THAT(complaints_about("# nothing\n"), testing::ElementsAre("1:1: the file is empty"));
+  const auto no_keys = "1:1: expected a section of keys, beginning with `campaign: name`";
+  for (const auto* text : {"[1, 2]", "null", "campaign"})
+    EXPECT_THAT(complaints_about(text), testing::ElementsAre(no_keys)) << text;
+}
 
-      TEST(CampaignReader, RefusesEndlessDepthAndSize) {
-        EXPECT_THAT(complaints_about(std::string(100000, '[')), testing::SizeIs(1));
-        std::string stairs;
-        for (int i = 0; i < 300; ++i) stairs += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
-        EXPECT_THAT(complaints_about(stairs),
-                    testing::ElementsAre("65:65: this is not YAML: more levels than any campaign needs"));
-        std::string many = "a: [";
-        for (int i = 0; i < 200000; ++i) many += "1,";
-        EXPECT_THAT(complaints_about(many + "]"),
-                    testing::ElementsAre(testing::HasSubstr("more values than any campaign needs")));
-        EXPECT_THAT(complaints_about(std::string(2000000, 'a')),
-                    testing::ElementsAre(testing::HasSubstr("larger than 1 MB")));
-      }
+TEST(CampaignReader, RefusesEndlessDepthAndSize) {
+  EXPECT_THAT(complaints_about(std::string(100000, '[')), testing::SizeIs(1));
+  std::string stairs;
+  for (int i = 0; i < 300; ++i) stairs += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+  EXPECT_THAT(complaints_about(stairs),
+              testing::ElementsAre("65:65: this is not YAML: more levels than any campaign needs"));
+  std::string many = "a: [";
+  for (int i = 0; i < 200000; ++i) many += "1,";
+  EXPECT_THAT(complaints_about(many + "]"),
+              testing::ElementsAre(testing::HasSubstr("more values than any campaign needs")));
+  EXPECT_THAT(complaints_about(std::string(2000000, 'a')),
+              testing::ElementsAre(testing::HasSubstr("larger than 1 MB")));
+}
 
-    }  // namespace
-  }    // namespace cupola
+}  // namespace
+}  // namespace cupola
