@@ -39,9 +39,4 @@ double StepError::after(double duration, double memory) const {
   return seconds > 0 ? pair / (2 * seconds) * std::min(duration, memory) : 0;
 }
 
-double step_for(const StepError& error, double wanted, double duration, double memory) {
-  const double now = error.after(duration, memory);
-  return now > 0 ? error.seconds * wanted / now : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace cupola

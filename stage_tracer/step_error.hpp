@@ -32,7 +32,4 @@ struct StepError {
   [[nodiscard]] double after(double duration, double memory) const;
 };
 
-/// Length of step that brings the error after `duration` to `wanted` (first order), from an estimate.
-double step_for(const StepError& error, double wanted, double duration, double memory);
-
 }  // namespace cupola

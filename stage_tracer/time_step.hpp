@@ -13,14 +13,11 @@ struct TimeSteps {
 /// Equal steps of at most `longest` that fill a duration.
 TimeSteps fill_with_steps(double duration, double longest);
 
-/// The given step, or (`auto`) a first guess: a fifth of the time in which a cell of the moving bed is crossed (a tenth
+/// The given step, or (`auto`) a fifth of the time in which a cell of the moving bed is crossed (a tenth
 /// of the bed's volume is crossed faster than that) and at most a fifth of the thinnest layer's passage.  Transport
 /// across cells and layers limits the accuracy, not heat, which is exact for any step (NUMERICS_NOTES).
 /// @param charge null for a bed at rest, whose `auto` step is a hundredth of the duration
 TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
                             const PathField& paths, const ChargePlan* charge);
-
-/// No automatic step is longer than this many times the first guess.
-inline constexpr double most_over_first_guess = 4;
 
 }  // namespace cupola

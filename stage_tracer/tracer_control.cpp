@@ -10,8 +10,7 @@
 namespace cupola {
 namespace {
 
-constexpr double step_share_of_accuracy = 0.5;  // the rest is for what is solved again only when it has changed
-constexpr int windows_in_a_row = 2;             // that must agree before a march is ended
+constexpr int windows_in_a_row = 2;  // that must agree before a march is ended
 constexpr const char* trial_file = "trial.hdf";
 
 }  // namespace
@@ -62,15 +61,6 @@ void TracerStage::estimate_error() {
     spdlog::info("after {} steps, of {:.4g} s: one step of twice the length differs by {:.2g}, estimated error {:.2g}",
                  step_, steps_.length, step_error_.pair, error);
   }
-  if (campaign_.tracer.time_step || !charge_) return;
-  const double wanted = step_share_of_accuracy * campaign_.tracer.accuracy;
-  const bool may_grow = error < 0.5 * wanted && steps_.length < 0.99 * longest_step_;
-  if (error <= wanted && !may_grow) return;
-  // A little shorter than the estimate allows, and not all at once.
-  const double next = std::clamp(0.9 * step_for(step_error_, wanted, duration, error_memory_), steps_.length / 4,
-                                 std::min(2 * steps_.length, longest_step_));
-  const TimeSteps rest = fill_with_steps(duration - now_, next);
-  steps_ = {step_ + rest.count, rest.length};
 }
 
 bool TracerStage::is_steady() {

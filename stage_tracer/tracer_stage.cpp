@@ -79,7 +79,6 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
       split_(tracers_per_parcel(campaign_, locator_, field_.bed, dem_.packing)),
       charge_(make_charge(campaign_, mesh_, field_, dem_)),
       steps_(choose_time_steps(mesh_, campaign_, field_, paths_, charge_.get())),
-      longest_step_(most_over_first_guess * steps_.length),
       kernel_(mesh_, field_.bed, kernel_diameter(campaign_, field_.charge), share_cells(mesh_.cells())),
       conduction_(mesh_, campaign_, field_.bed, field_.charge.layer_thickness, field_.charge.volume_share),
       motion_(campaign_, field_, paths_),

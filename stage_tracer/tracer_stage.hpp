@@ -85,7 +85,6 @@ class TracerStage {
   int split_;                                 ///< tracers a parcel
   std::unique_ptr<const ChargePlan> charge_;  ///< null for a bed at rest
   TimeSteps steps_;                           ///< of the whole stage; the length is that of the steps to come
-  double longest_step_;                       ///< s, of automatic steps
   CellSpreading kernel_;
   Conduction conduction_;
   Motion motion_;
