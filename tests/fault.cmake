@@ -16,9 +16,10 @@ if(TARGET cupola AND TARGET cupola-dem AND TARGET cupola-tracer)
 
   fault_test(fault_alone fault alone.mjs $<TARGET_FILE:cupola_faults>)
   set_tests_properties(fault_alone PROPERTIES FIXTURES_SETUP fault_alone)
-  fault_test(fault_kills fault kills.mjs 10)
-  fault_test(fault_io_errors fault io_errors.mjs $<TARGET_FILE:cupola_faults> 10)
-  fault_test(fault_places fault places.mjs $<TARGET_FILE:cupola_faults>)
+  # Random kills and errors of the file system: not in CI until they have passed often enough to be relied upon.
+  fault_test(fault_kills "fault;long" kills.mjs 10)
+  fault_test(fault_io_errors "fault;long" io_errors.mjs $<TARGET_FILE:cupola_faults> 10)
+  fault_test(fault_places "fault;long" places.mjs $<TARGET_FILE:cupola_faults>)
   fault_test(fault_kills_long "fault;long" kills.mjs 100)
   fault_test(fault_io_errors_long "fault;long" io_errors.mjs $<TARGET_FILE:cupola_faults> 100)
   set_tests_properties(fault_kills fault_io_errors fault_places fault_kills_long fault_io_errors_long PROPERTIES FIXTURES_REQUIRED fault_alone)
