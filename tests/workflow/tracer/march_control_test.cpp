@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "schemas/campaign_reader.hpp"
 #include "tests/support/tracer_program.hpp"
 
-/// When the march ends and how long its steps are.
+/// When the march ends, and what its steps cost in accuracy.
 namespace cupola {
 namespace {
 
@@ -57,27 +56,23 @@ TEST(TracerStageControl, EndsWhenSteadyAndMarchingOnAgrees) {
   RecordProperty("estimate", std::to_string(summary["steady"]["remaining_change"].get<double>()));
 }
 
-TEST(TracerStageControl, StepFollowsTheAccuracyAndTheEstimateIsNotBelowTheTruth) {
+TEST(TracerStageControl, TheEstimateIsNotBelowTheTruth) {
   Campaign fine = tiny();
   fine.tracer.time_step = 0.5;
   const TracerTask reference(fine);
   ASSERT_EQ(reference.run(), 0);
-  std::map<double, double> step;
-  for (const double accuracy : {0.05, 0.005}) {
+  for (const double seconds : {4.0, 12.0}) {
     Campaign campaign = tiny();
-    campaign.tracer.accuracy = accuracy;
+    campaign.tracer.time_step = seconds;
     const TracerTask task(campaign);
     ASSERT_EQ(task.run(), 0);
-    const nlohmann::json summary = task.result().summary();
-    step[accuracy] = summary["time_step"];
     const double error = distance(task.result(), reference.result());
-    const double estimate = summary["accuracy"]["time_step_error"];
-    EXPECT_LE(error, accuracy);
-    EXPECT_GT(estimate, 0);
-    RecordProperty("error_" + std::to_string(accuracy), std::to_string(error));
-    RecordProperty("estimate_" + std::to_string(accuracy), std::to_string(estimate));
+    const double estimate = task.result().summary()["accuracy"]["time_step_error"];
+    EXPECT_GT(error, 0) << seconds;
+    EXPECT_LE(error, estimate) << seconds;
+    RecordProperty("error_" + std::to_string(seconds), std::to_string(error));
+    RecordProperty("estimate_" + std::to_string(seconds), std::to_string(estimate));
   }
-  EXPECT_LT(step[0.005], step[0.05]);
 }
 
 TEST(TracerStageControl, RingsAndBothDisplacementsKeepTheBalances) {
