@@ -5,11 +5,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "physics/closures/enthalpy_zero.hpp"
+
 namespace cupola {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double reference_temperature = 293.;  // K, where enthalpies begin
 
 std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) throw std::invalid_argument("fields of two episodes differ in length");
@@ -87,7 +88,7 @@ Judgement judge_temperature(const std::vector<double>& now, const std::vector<do
                             const std::optional<std::vector<double>>& two_before, const std::vector<double>& weights,
                             double criterion) {
   std::vector<double> excess = now;
-  for (double& value : excess) value -= reference_temperature;
+  for (double& value : excess) value -= enthalpy_zero;
   constexpr double least_level = 1e-9;  // K: a bed at 293 K everywhere has no level to compare with
   const double level = std::max(weighted_rms(excess, weights), least_level);
   return judge_remaining_change(now, before, two_before, weights, 1 / level, criterion);

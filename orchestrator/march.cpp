@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "orchestrator/episode_judgement.hpp"
 #include "orchestrator/prediction.hpp"
 #include "orchestrator/stage_runner.hpp"
+#include "orchestrator/stage_state.hpp"
 
 namespace cupola {
 namespace {
@@ -46,13 +46,6 @@ Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::files
 
 constexpr const char* on_request = "on request";
 constexpr const char* after_one_stage = "after one stage, as asked for";
-
-/// How many stages the journal knows the end of.
-long stages_finished(const RunFolder& run) {
-  const auto& records = run.journal().records();
-  return std::count_if(records.begin(), records.end(),
-                       [](const json& record) { return record.value("event", "") == "stage-finished"; });
-}
 
 std::string change_text(const json& judgement) {
   std::string text;
@@ -102,7 +95,9 @@ class March {
   }
 
   /// Whether the one stage that was asked for has ended while we worked here.
-  [[nodiscard]] bool enough_for_once() const { return options_.one_stage && stages_finished(run_) > finished_before_; }
+  [[nodiscard]] bool enough_for_once() const {
+    return options_.one_stage && stages_finished(run_.journal().records()) > finished_before_;
+  }
 
   /// Judges the episode, or takes what an earlier orchestrator wrote down.
   Verdict judge(int episode) {
@@ -164,7 +159,7 @@ class March {
   int limit_;
   std::vector<EpisodeFolders> finished_;
   std::vector<bool> met_;
-  long finished_before_ = stages_finished(run_);
+  int finished_before_ = stages_finished(run_.journal().records());
 };
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "orchestrator/convergence.hpp"
+
 namespace cupola {
 namespace {
 
 using nlohmann::json;
 
-constexpr double least_lambda = 0.3;
-constexpr double greatest_lambda = 0.95;
 constexpr int episodes_to_extrapolate = 3;  // an extrapolation needs two changes
 
 std::optional<double> number(const json& record, const char* group, const std::string& rule) {
@@ -26,8 +26,8 @@ std::optional<double> contraction(const std::vector<json>& judged, const std::st
     const auto before = number(judged[judged.size() - 2], "change", rule), now = number(judged.back(), "change", rule);
     if (before && now && *before > 0) factor = *now / *before;
   }
-  if (!factor || !(std::abs(*factor) <= greatest_lambda)) return std::nullopt;
-  return std::max(std::abs(*factor), least_lambda);
+  if (!factor || !(std::abs(*factor) <= largest_lambda)) return std::nullopt;
+  return std::max(std::abs(*factor), smallest_lambda);
 }
 
 }  // namespace

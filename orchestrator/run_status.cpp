@@ -179,7 +179,7 @@ std::vector<std::string> last_warnings(const RunRecord& run, const Present& pres
     if (event == "advice-taken") warnings.push_back(place + " was tried again: " + record.value("because", ""));
     if (event == "stage-stopped" && record.contains("why")) warnings.push_back(place + ": " + record.value("why", ""));
   }
-  // The stage says its warnings to its log and, through mpirun, once more into the same file.
+  // A stage that is started again says the same again.
   std::set<std::string> said;
   for (const std::string& line : logged_warnings(present.state.folder / "stage.log"))
     if (said.insert(line).second)

@@ -1,5 +1,7 @@
 #include "orchestrator/stage_state.hpp"
 
+#include <algorithm>
+
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/stage_launcher.hpp"
 #include "schemas/files.hpp"
@@ -63,6 +65,12 @@ const json* last_record(const std::vector<json>& journal, const std::string& eve
   for (auto record = journal.rbegin(); record != journal.rend(); ++record)
     if (record->value("event", "") == event && is_about(*record, episode, kind, attempt)) return &*record;
   return nullptr;
+}
+
+int stages_finished(const std::vector<json>& journal) {
+  return static_cast<int>(std::count_if(journal.begin(), journal.end(), [](const json& record) {
+    return record.value("event", "") == "stage-finished";
+  }));
 }
 
 int ranks_in_force(const std::vector<json>& journal, int of_campaign) {

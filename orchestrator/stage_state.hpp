@@ -38,6 +38,9 @@ bool is_about(const nlohmann::json& record, int episode, TaskKind kind, int atte
 const nlohmann::json* last_record(const std::vector<nlohmann::json>& journal, const std::string& event, int episode,
                                   TaskKind kind, int attempt);
 
+/// How many stages have come to their end.
+int stages_finished(const std::vector<nlohmann::json>& journal);
+
 /// Ranks of the stages that start now: those of the last `ranks-changed`, else the campaign's.
 int ranks_in_force(const std::vector<nlohmann::json>& journal, int of_campaign);
 

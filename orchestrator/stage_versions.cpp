@@ -1,16 +1,12 @@
 #include "orchestrator/stage_versions.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
+#include <chrono>
 
 #include "orchestrator/built_with.hpp"
+#include "orchestrator/launch/program_output.hpp"
 #include "orchestrator/run_check.hpp"
 #include "schemas/version.hpp"
 
@@ -19,41 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-/// What a program prints. Empty where it cannot be started or ends badly.
-std::string output_of(const std::filesystem::path& program, const char* option) {
-  std::array<int, 2> pipe{};
-  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) return {};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, pipe[1], STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  std::string name = program.string();
-  std::string word = option;
-  std::array<char*, 3> words{name.data(), word.data(), nullptr};
-  pid_t child = 0;
-  const int problem = ::posix_spawn(&child, name.c_str(), &actions, &attributes, words.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(pipe[1]);
-  std::string text;
-  std::array<char, 4096> buffer{};
-  for (ssize_t count = 0;
-       problem == 0 && ((count = ::read(pipe[0], buffer.data(), buffer.size())) > 0 || errno == EINTR);)
-    if (count > 0)
-      text.append(buffer.data(), static_cast<std::size_t>(count));
-    else if (count == 0)
-      break;
-  ::close(pipe[0]);
-  int status = 0;
-  while (problem == 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return problem == 0 && status == 0 ? text : std::string();
-}
+/// A stage that only prints is long done by then.
+constexpr std::chrono::seconds patience{60};
 
 json in_force(const json& information, const std::vector<json>& journal) {
   json versions = information.value("versions", json::object());
@@ -67,9 +30,10 @@ json in_force(const json& information, const std::vector<json>& journal) {
 json present_versions(const StageLauncher& launcher) {
   json versions = program_versions();
   for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer}) {
-    const std::string said = output_of(launcher.program(kind), "--versions");
-    const json of_stage = json::parse(said, nullptr, false);
-    if (!of_stage.is_object())
+    const ProgramOutput said = output_of({launcher.program(kind).string(), "--versions"}, patience);
+    fmt::print(stderr, "{}", said.error);
+    const json of_stage = json::parse(said.output, nullptr, false);
+    if (said.status != 0 || !of_stage.is_object())
       throw Failure(ExitCode::input_output, fmt::format("{} does not say its versions: it cannot be started. See what "
                                                         "`cupola doctor` says.",
                                                         launcher.program(kind).string()));

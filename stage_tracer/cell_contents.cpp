@@ -2,6 +2,12 @@
 
 namespace cupola {
 
+std::vector<std::vector<double>*> pointers(BySpecies& arrays) {
+  std::vector<std::vector<double>*> result;
+  for (auto& array : arrays) result.push_back(&array);
+  return result;
+}
+
 double kernel_diameter(const Campaign& campaign, const Charge& charge) {
   double diameter = 0;
   double share = 0;
@@ -39,8 +45,7 @@ CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_
 
 CellContents spread(const CellContents& contents, const CellSpreading& kernel) {
   CellContents result = contents;
-  std::vector<std::vector<double>*> sums;
-  for (auto& volume : result.volume) sums.push_back(&volume);
+  std::vector<std::vector<double>*> sums = pointers(result.volume);
   for (std::size_t s = 0; s < result.temperature.size(); ++s) {
     std::vector<double>& mean = result.temperature[s];
     for (std::size_t c = 0; c < mean.size(); ++c) mean[c] *= contents.volume[s][c];

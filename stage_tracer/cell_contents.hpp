@@ -11,6 +11,9 @@ namespace cupola {
 /// Arrays [species][cell].
 using BySpecies = std::vector<std::vector<double>>;
 
+/// The arrays as the kernel takes them, together.
+std::vector<std::vector<double>*> pointers(BySpecies& arrays);
+
 /// What the tracers of all ranks carry in each cell.
 struct CellContents {
   BySpecies volume;       ///< m3, material

@@ -48,6 +48,8 @@ class Conduction {
   /// Conductances between the places species x cells + cell, as they stand.
   /// @param contents spread
   [[nodiscard]] std::vector<Link> links(const CellContents& contents, const BySpecies& bed_volume) const;
+
+ private:
   [[nodiscard]] BySpecies shares(const CellContents& contents, const BySpecies& bed_volume) const;
   /// k_eff, W/m/K, [species][cell].
   [[nodiscard]] BySpecies conductivities(const CellContents& contents, const BySpecies& bed_volume) const;
@@ -57,7 +59,6 @@ class Conduction {
   /// To the outside, W/K, species x cells + cell.
   [[nodiscard]] std::vector<double> wall_conductance(const CellContents& contents, const BySpecies& bed_volume) const;
 
- private:
   const BedMesh& mesh_;
   const Campaign& campaign_;
   std::vector<bool> bed_;

@@ -9,16 +9,6 @@
 
 namespace cupola {
 
-namespace {
-
-std::vector<std::vector<double>*> pointers(BySpecies& arrays) {
-  std::vector<std::vector<double>*> result;
-  for (auto& array : arrays) result.push_back(&array);
-  return result;
-}
-
-}  // namespace
-
 std::vector<double> volumetric_heat_capacity(const Species& species, const std::vector<double>& temperature) {
   std::vector<double> capacity(temperature.size());
   for (std::size_t c = 0; c < capacity.size(); ++c)

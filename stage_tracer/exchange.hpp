@@ -41,6 +41,9 @@ class Exchange {
   /// Heat transfer coefficient h, W/m2/K, [species][cell].
   [[nodiscard]] const BySpecies& coefficient() const { return coefficient_; }
 
+  /// h as a tracer in each cell feels it, sum_c W_cj h_c, W/m2/K, [species][cell].
+  [[nodiscard]] const BySpecies& felt_coefficient() const { return felt_; }
+
   /// exp(-k dt), [species][cell].
   [[nodiscard]] const BySpecies& decay() const { return decay_; }
 

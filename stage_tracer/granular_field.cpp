@@ -27,6 +27,17 @@ std::vector<bool> persistent_species(const Campaign& campaign) {
   return result;
 }
 
+ChargedFlux charged_flux(const Campaign& campaign, const Charge& charge) {
+  ChargedFlux result;
+  for (std::size_t s = 0; s < campaign.species.size(); ++s) {
+    result.volume_rate += charge.volume_rate[s];
+    if (campaign.species[s].softening) continue;
+    result.persistent_share += charge.volume_share[s];
+    result.persistent_mass_rate += charge.mass_rate[s];
+  }
+  return result;
+}
+
 std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign) {
   std::vector<bool> bed(mesh.cells());
   for (std::size_t c = 0; c < mesh.cells(); ++c) bed[c] = mesh.cell_centre[c][2] < campaign.charging.stock_line;
@@ -101,6 +112,15 @@ std::vector<double> raceway_sink(const BedMesh& mesh, const Campaign& campaign, 
   return sink;
 }
 
+std::vector<double> raceway_weights(const Campaign& campaign, const std::vector<double>& removal_by_raceway) {
+  std::vector<double> weights = removal_by_raceway;
+  if (weights.size() != campaign.raceways.size() || !(*std::max_element(weights.begin(), weights.end()) > 0)) {
+    weights.clear();
+    for (const Raceway& raceway : campaign.raceways) weights.push_back(raceway.dem_removal_rate);
+  }
+  return weights;
+}
+
 std::vector<double> interpolate_flux(const BedMesh& mesh, const std::vector<bool>& bed,
                                      const std::vector<Vector3>& flux) {
   std::vector<double> result(mesh.faces(), 0.0);
@@ -150,10 +170,13 @@ std::vector<StockFace> stock_faces(const BedMesh& mesh, const std::vector<bool>&
   return faces;
 }
 
-std::vector<bool> stagnant_cells(const PathField& paths, const std::vector<bool>& bed, double longest_stay) {
-  std::vector<bool> stagnant(bed.size());
-  for (std::size_t c = 0; c < bed.size(); ++c) {
-    stagnant[c] = bed[c] && paths.crossing_time(static_cast<std::int64_t>(c)) > longest_stay;
+std::vector<bool> stagnant_cells(const BedMesh& mesh, const Campaign& campaign, const GranularField& field) {
+  const PathField paths(mesh, field.face_flux, field.storage);
+  const double height = std::min(campaign.charging.stock_line, campaign.top()) - campaign.bottom();
+  const double longest_stay = 10 * height / campaign.descent_rate;
+  std::vector<bool> stagnant(mesh.cells());
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    stagnant[c] = field.bed[c] && paths.crossing_time(static_cast<std::int64_t>(c)) > longest_stay;
   }
   return stagnant;
 }

@@ -43,6 +43,14 @@ inline constexpr double least_solids_fraction = 0.05;
 /// Which species never melt.
 std::vector<bool> persistent_species(const Campaign& campaign);
 
+/// What is charged of all species, and the persistent species' part of it.
+struct ChargedFlux {
+  double volume_rate = 0;           ///< m3/s, material volume of all species
+  double persistent_share = 0;      ///< in that volume
+  double persistent_mass_rate = 0;  ///< kg/s
+};
+ChargedFlux charged_flux(const Campaign& campaign, const Charge& charge);
+
 /// Cells whose centre lies below the stock plane.
 std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign);
 
@@ -64,6 +72,10 @@ std::vector<double> persistent_share(const BedMesh& mesh, const Campaign& campai
 std::vector<double> raceway_sink(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
                                  const std::vector<double>& weights, double total);
 
+/// How the raceways share the sink: as the DEM stage's removed, where that is known and not 0, otherwise as the
+/// campaign (which has raceways) states their rates.
+std::vector<double> raceway_weights(const Campaign& campaign, const std::vector<double>& removal_by_raceway);
+
 /// Face fluxes of a cell field by linear interpolation, none through walls: the field as it is, without cleaning.
 std::vector<double> interpolate_flux(const BedMesh& mesh, const std::vector<bool>& bed,
                                      const std::vector<Vector3>& flux);
@@ -73,7 +85,7 @@ std::vector<double> interpolate_flux(const BedMesh& mesh, const std::vector<bool
 std::vector<StockFace> stock_faces(const BedMesh& mesh, const std::vector<bool>& bed,
                                    const std::vector<double>& face_flux, double volume_rate);
 
-/// MODEL 12: bed cells in which solids stay longer than `longest_stay`, s.
-std::vector<bool> stagnant_cells(const PathField& paths, const std::vector<bool>& bed, double longest_stay);
+/// MODEL 12: bed cells in which solids stay longer than ten passages of the bed's height at the descent rate.
+std::vector<bool> stagnant_cells(const BedMesh& mesh, const Campaign& campaign, const GranularField& field);
 
 }  // namespace cupola

@@ -31,8 +31,8 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
     capacity[s] = volumetric_heat_capacity(campaign_.species[s], contents.temperature[s]);
     spread_capacity[s] = capacity[s];
     for (std::size_t c = 0; c < cells; ++c) spread_capacity[s][c] *= contents.volume[s][c];
-    kernel_.apply(spread_capacity[s]);
   }
+  kernel_.apply(pointers(spread_capacity));
   BySpecies felt(species, std::vector<double>(cells, 0.0));
   BySpecies decay(species, std::vector<double>(cells, 1.0));
   if (gas != nullptr) {
@@ -55,8 +55,8 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
   }
   Conduction::Result conducted = conduction_.advance(spread(contents, kernel_), spread_capacity, bed_volume, step);
   BySpecies& shift = conducted.change;
+  kernel_.gather(pointers(shift));
   for (std::size_t s = 0; s < species; ++s) {
-    kernel_.gather(shift[s]);
     for (std::size_t c = 0; c < cells; ++c) {
       if (contents.volume[s][c] > 0) contents.temperature[s][c] += shift[s][c];
     }

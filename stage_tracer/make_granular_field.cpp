@@ -114,18 +114,10 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
   field.charge = charge_of(campaign, packing_near_stock(mesh, campaign, field.bed, dem.solids_fraction));
   if (!(campaign.descent_rate > 0)) return field;
 
-  const std::vector<bool> persistent = persistent_species(campaign);
-  double charged_share = 0;
-  double persistent_mass_rate = 0;
-  double volume_rate = 0;
-  for (std::size_t s = 0; s < persistent.size(); ++s) {
-    volume_rate += field.charge.volume_rate[s];
-    if (!persistent[s]) continue;
-    charged_share += field.charge.volume_share[s];
-    persistent_mass_rate += field.charge.mass_rate[s];
-  }
-  const bool known_sink = !campaign.raceways.empty() && charged_share > 0 && dem.persistent_removal_rate > 0;
-  if (charged_share <= 0) charged_share = 1;  // nothing persists: the whole flux moves the bed
+  const ChargedFlux charged = charged_flux(campaign, field.charge);
+  const bool known_sink = !campaign.raceways.empty() && charged.persistent_share > 0 && dem.persistent_removal_rate > 0;
+  // Where nothing persists, the whole flux moves the bed.
+  const double charged_share = charged.persistent_share > 0 ? charged.persistent_share : 1;
   const std::vector<double> share = persistent_share(mesh, campaign, charged_share, ore_temperature);
 
   std::vector<Vector3> flux(mesh.cells());
@@ -134,9 +126,9 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
     for (std::size_t k = 0; k < 3; ++k) flux[c][k] = share[c] * dem.solids_fraction[c] * dem.solids_velocity[c][k];
   }
   const double passing = flux_at_mid_shaft(mesh, campaign, field.bed, flux);
-  const double coke_rate = charged_share * volume_rate;
+  const double coke_rate = charged_share * charged.volume_rate;
   if (known_sink) {
-    field.scale = persistent_mass_rate / dem.persistent_removal_rate;
+    field.scale = charged.persistent_mass_rate / dem.persistent_removal_rate;
     field.scale_check = passing * field.scale / coke_rate - 1;
     field.storage_over_removal =
         storage_below_mid_shaft(mesh, campaign, field.bed, share, dem.solids_growth) * field.scale / coke_rate;
@@ -154,12 +146,7 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
 
   std::vector<double> sink(mesh.cells(), 0.0);
   if (known_sink) {
-    std::vector<double> weights = dem.removal_by_raceway;
-    if (weights.size() != campaign.raceways.size() || !(*std::max_element(weights.begin(), weights.end()) > 0)) {
-      weights.clear();
-      for (const Raceway& raceway : campaign.raceways) weights.push_back(raceway.dem_removal_rate);
-    }
-    sink = raceway_sink(mesh, campaign, field.bed, weights, coke_rate);
+    sink = raceway_sink(mesh, campaign, field.bed, raceway_weights(campaign, dem.removal_by_raceway), coke_rate);
     for (std::size_t c = 0; c < mesh.cells(); ++c) field.removal_rate[c] = sink[c] / field.storage[c];
   }
   if (campaign.tracer.clean_field && known_sink) {
@@ -167,10 +154,8 @@ GranularField make_granular_field(FoamCase& foam, const BedMesh& mesh, const Cam
   } else {
     field.face_flux = interpolate_flux(mesh, field.bed, flux);
   }
-  field.stock_faces = stock_faces(mesh, field.bed, field.face_flux, volume_rate);
-  const double height = std::min(campaign.charging.stock_line, campaign.top()) - campaign.bottom();
-  field.stagnant =
-      stagnant_cells(PathField(mesh, field.face_flux, field.storage), field.bed, 10 * height / campaign.descent_rate);
+  field.stock_faces = stock_faces(mesh, field.bed, field.face_flux, charged.volume_rate);
+  field.stagnant = stagnant_cells(mesh, campaign, field);
 
   if (std::abs(field.scale_check) > 0.1) {
     spdlog::warn(

@@ -24,7 +24,7 @@ double temperature_difference(const TracerTemperatures& one, const Tracers& othe
 
 /// The estimate of what the time step costs in accuracy.
 struct StepError {
-  double pair = 0;     ///< largest difference found between one step of twice the length and two steps
+  double pair = 0;     ///< last difference found between one step of twice the length and two steps
   double seconds = 0;  ///< s, length of the step it belongs to
 
   /// Error of the temperatures after `duration` s: the errors of pairs of steps add up, for as long as the bed

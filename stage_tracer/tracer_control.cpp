@@ -6,7 +6,7 @@
 
 #include "stage_tracer/tracer_stage.hpp"
 
-/// How long the steps are, what they cost in accuracy, and when the march is there.
+/// What the steps cost in accuracy, and when the march is there.
 namespace cupola {
 namespace {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "schemas/files.hpp"
+#include "stage_tracer/gas_comparison.hpp"
 #include "stage_tracer/tracer_stage.hpp"
 
 /// What the march tells while it runs and when it is done.
-#include "stage_tracer/gas_comparison.hpp"
 
 namespace cupola {
 namespace {

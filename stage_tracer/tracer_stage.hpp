@@ -44,7 +44,7 @@ class TracerStage {
   void write_state(HdfWriter& file, const std::vector<double>& all_tracer_rows) const;
   void read_state(const HdfReader& file);
 
-  /// What the step costs in accuracy, by step doubling; an automatic step follows it.
+  /// What the step costs in accuracy, by step doubling.
   void estimate_error();
   /// Difference of the tracers' temperatures after two steps and after one of twice the length; the state stays.
   [[nodiscard]] double compare_steps();
@@ -84,7 +84,7 @@ class TracerStage {
   PathField paths_;
   int split_;                                 ///< tracers a parcel
   std::unique_ptr<const ChargePlan> charge_;  ///< null for a bed at rest
-  TimeSteps steps_;                           ///< of the whole stage; the length is that of the steps to come
+  TimeSteps steps_;                           ///< of the whole stage
   CellSpreading kernel_;
   Conduction conduction_;
   Motion motion_;

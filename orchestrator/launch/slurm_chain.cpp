@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "orchestrator/launch/job_name.hpp"
 #include "orchestrator/launch/job_script.hpp"
 #include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
+#include "orchestrator/stage_state.hpp"
 
 namespace cupola {
 namespace {
@@ -22,9 +24,7 @@ std::string own_job() {
 
 /// Stages that are still to be run where the campaign goes to its limit.
 int stages_left(const std::vector<json>& journal, int episodes) {
-  const auto finished = std::count_if(journal.begin(), journal.end(),
-                                      [](const json& record) { return record.value("event", "") == "stage-finished"; });
-  return std::max(2 * episodes - static_cast<int>(finished), 1);
+  return std::max(2 * episodes - stages_finished(journal), 1);
 }
 
 }  // namespace
@@ -45,9 +45,7 @@ std::vector<std::string> SlurmChain::submit(const StageLauncher& launcher, std::
   if (at_most) words.insert(words.end(), {"--at-most", std::to_string(*at_most)});
   write_text_atomically(folder / "link.sh", link_script(*launch.slurm, words));
 
-  const std::string unique = hash_text(run_.path().string() + std::to_string(run_.journal().records().size()));
-  BatchJob link{fmt::format("cupola-{}-chain", unique.substr(unique.find(':') + 1, 10)), folder / "link.sh", folder,
-                folder / "link.log", ""};
+  BatchJob link{job_name(run_, "chain"), folder / "link.sh", folder, folder / "link.log", ""};
   const int links = stages_left(run_.journal().records(), at_most.value_or(run_.campaign().converged.at_most));
   run_.journal().append("chain-submitting", {{"name", link.name}, {"links", links}});
   std::vector<std::string> jobs;

@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 
+#include "orchestrator/launch/job_name.hpp"
 #include "orchestrator/launch/job_script.hpp"
 #include "orchestrator/stage_state.hpp"
 
@@ -21,13 +22,6 @@ using Phase = JobState::Phase;
 std::chrono::milliseconds between_questions(Clock::duration followed) {
   if (followed < 1min) return 1s;
   return followed < 10min ? 5s : 15s;
-}
-
-/// A job's name: one can see in the queue what it is, and no other job has it.
-std::string job_name(const RunFolder& run, const StagePlace& place) {
-  const std::string unique = hash_text(run.path().string() + std::to_string(run.journal().records().size()));
-  return fmt::format("cupola-{}-e{}-{}", unique.substr(unique.find(':') + 1, 10), place.episode,
-                     stage_name(place.kind));
 }
 
 /// The last job of an attempt that the journal has not seen end: its `job-submitting` or `job-submitted` record.
@@ -71,7 +65,8 @@ json SlurmStage::about(const StagePlace& place) const {
 JobEnd SlurmStage::run(const StagePlace& place) {
   const std::filesystem::path task = task_folder(run_.path(), place.episode, place.kind, place.attempt);
   const Launch& launch = run_.campaign().launch;
-  const BatchJob job{job_name(run_, place), task / "job.sh", task, task / "stage.log", ""};
+  const BatchJob job{job_name(run_, fmt::format("e{}-{}", place.episode, stage_name(place.kind))), task / "job.sh",
+                     task, task / "stage.log", ""};
   write_text_atomically(job.script, stage_script(*launch.slurm, launcher_.prepare(place.kind, task).words,
                                                  launcher_.words_in_job(place.kind, task, launch)));
   json content = about(place);

@@ -1,4 +1,5 @@
 #pragma once
+#include "physics/closures/enthalpy_zero.hpp"
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/janaf.hpp"
 #include "physics/closures/sutherland.hpp"
@@ -20,9 +21,8 @@ class GasState {
   }
   /// J/kg from 293 K.
   [[nodiscard]] double enthalpy(double temperature) const {
-    constexpr double zero = 293;
-    return constant_heat_capacity() ? gas_.heat_capacity * (temperature - zero)
-                                    : janaf_.enthalpy(temperature) - janaf_.enthalpy(zero);
+    return constant_heat_capacity() ? gas_.heat_capacity * (temperature - enthalpy_zero)
+                                    : janaf_.enthalpy(temperature) - janaf_.enthalpy(enthalpy_zero);
   }
   /// W/m/K, by the campaign's constant Prandtl number.
   [[nodiscard]] double conductivity(double temperature) const {

@@ -1,4 +1,5 @@
 #pragma once
+#include "physics/closures/enthalpy_zero.hpp"
 #include "schemas/campaign.hpp"
 
 namespace cupola {
@@ -22,8 +23,5 @@ inline bool has_constant_heat_capacity(const Species& species) {
 /// Temperature of a solid from its enthalpy: the exact inverse of `solid_enthalpy`.
 /// @param enthalpy J/kg from 293 K  @return K
 double solid_temperature(const Species& species, double enthalpy);
-
-/// Temperature that enthalpies count from, K.
-inline constexpr double enthalpy_zero = 293;
 
 }  // namespace cupola

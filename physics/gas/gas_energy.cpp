@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "physics/closures/enthalpy_zero.hpp"
 #include "physics/closures/gas_state.hpp"
 #include "physics/closures/syamlal_gidaspow.hpp"
 #include "physics/equations/cell_equation.hpp"
@@ -17,8 +18,6 @@
 namespace cupola {
 namespace {
 
-/// Enthalpies count from here, K.
-constexpr double reference_temperature = 293;
 /// The balance closes to this share of what comes in.
 constexpr double balance_tolerance = 1e-11;
 constexpr double acceptable_balance = 1e-8;
@@ -54,7 +53,7 @@ struct GasEnergy::State {
       std::fill_n(inlet_temperature.begin() + patch->first_face, patch->faces, inlet.total_temperature);
       first_guess = std::max(first_guess, inlet.total_temperature);
     }
-    temperature.assign(mesh.cells(), first_guess > 0 ? first_guess : reference_temperature);
+    temperature.assign(mesh.cells(), first_guess > 0 ? first_guess : enthalpy_zero);
     order.resize(mesh.cells());
     std::iota(order.begin(), order.end(), 0);
     wall_share.assign(mesh.cells(), 0);
@@ -222,7 +221,7 @@ const std::vector<double>& GasEnergy::solve(const BedFlow& flow, const BedState&
   for (const double value : balance.given_enthalpy) ledger.blast += value;
   double scale = std::abs(ledger.blast);
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-    scale += std::abs(exchange.conductance_temperature[cell] - exchange.conductance[cell] * reference_temperature);
+    scale += std::abs(exchange.conductance_temperature[cell] - exchange.conductance[cell] * enthalpy_zero);
   }
   auto& temperature = state.temperature;
   const double tolerance = balance_tolerance * scale;
@@ -255,7 +254,7 @@ const std::vector<double>& GasEnergy::solve(const BedFlow& flow, const BedState&
       const auto owner = mesh.face_owner[face];
       if (patch.kind == BedMesh::PatchKind::outlet) {
         ledger.top_gas += face_flux[face] * state.thermodynamics.enthalpy(leaving[owner]);
-        above_reference += face_flux[face] * (leaving[owner] - reference_temperature);
+        above_reference += face_flux[face] * (leaving[owner] - enthalpy_zero);
         outflow += face_flux[face];
       } else if (patch.kind == BedMesh::PatchKind::wall && state.heat_loss) {
         ledger.walls +=
@@ -265,7 +264,7 @@ const std::vector<double>& GasEnergy::solve(const BedFlow& flow, const BedState&
   }
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell)
     ledger.to_solids += exchange.conductance[cell] * temperature[cell] - exchange.conductance_temperature[cell];
-  ledger.top_gas_temperature = reference_temperature + (outflow != 0 ? above_reference / outflow : 0);
+  ledger.top_gas_temperature = enthalpy_zero + (outflow != 0 ? above_reference / outflow : 0);
   ledger.residual = scale > 0 ? (ledger.blast - ledger.top_gas - ledger.walls - ledger.to_solids) / scale : 0;
   state.ledger = ledger;
   return temperature;

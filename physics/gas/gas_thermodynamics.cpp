@@ -4,12 +4,12 @@
 
 #include "janafThermo.H"
 #include "perfectGas.H"
+#include "physics/closures/enthalpy_zero.hpp"
 #include "specie.H"
 
 namespace cupola {
 namespace {
 
-constexpr double reference_temperature = 293;
 constexpr double standard_pressure = 1e5;  // an ideal gas's enthalpy does not depend on it
 
 using FoamThermo = Foam::janafThermo<Foam::perfectGas<Foam::specie>>;
@@ -33,7 +33,7 @@ GasThermodynamics::GasThermodynamics(const Gas& gas)
     : constant_heat_capacity_(gas.heat_capacity), from_(gas.janaf.from), to_(gas.janaf.to) {
   if (gas.heat_capacity_model == Gas::HeatCapacityModel::constant) return;
   thermo_ = std::make_unique<Thermo>(gas);
-  zero_ = absolute_enthalpy(reference_temperature);
+  zero_ = absolute_enthalpy(enthalpy_zero);
 }
 GasThermodynamics::~GasThermodynamics() = default;
 
@@ -49,7 +49,7 @@ double GasThermodynamics::absolute_enthalpy(double temperature) const {
 }
 
 double GasThermodynamics::enthalpy(double temperature) const {
-  if (!thermo_) return constant_heat_capacity_ * (temperature - reference_temperature);
+  if (!thermo_) return constant_heat_capacity_ * (temperature - enthalpy_zero);
   return absolute_enthalpy(temperature) - zero_;
 }
 

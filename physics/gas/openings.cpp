@@ -48,7 +48,6 @@ Openings::Openings(const BedMesh& mesh, const FaceGeometry& geometry, const Gas&
       inlet_of_[face] = static_cast<int>(index);
     }
     area_.push_back(area);
-    // The mesh may know a small tuyere only as a larger face: its gas is as fast as the opening makes it.
     opening_.push_back(inlet.side == Inlet::Side::bottom ? area : inlet.size[0] * inlet.size[1]);
     if (inlet.given == Inlet::Given::pressure) {
       for (auto face = patch->first_face; face < patch->first_face + patch->faces; ++face) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/closures/enthalpy_zero.hpp"
 #include "physics/plan/small_linear_system.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr double reference_temperature = 293;
 constexpr double transfer_units_of_a_cell = 0.02;
 constexpr int fewest_cells = 500, most_cells = 100000;
 
@@ -107,8 +107,8 @@ CounterCurrentSolution sweep(const CounterCurrentBed& bed, int cells, const std:
     const double mean = (result.gas_temperature[n] + result.gas_temperature[n + 1]) / 2;
     result.to_wall += exchange[n].wall * (result.depth[n + 1] - result.depth[n]) * (mean - bed.wall_temperature);
   }
-  result.gas_in = bed.gas_heat_capacity_flow * (bed.gas_enters_at - reference_temperature);
-  result.gas_out = bed.gas_heat_capacity_flow * (result.gas_temperature[0] - reference_temperature);
+  result.gas_in = bed.gas_heat_capacity_flow * (bed.gas_enters_at - enthalpy_zero);
+  result.gas_out = bed.gas_heat_capacity_flow * (result.gas_temperature[0] - enthalpy_zero);
   return result;
 }
 

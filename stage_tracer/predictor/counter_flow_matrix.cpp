@@ -107,22 +107,22 @@ void CounterFlowMatrix::factorise() {
 void CounterFlowMatrix::precondition(std::vector<double>& x) const {
   const std::size_t block = fields_ * fields_;
   std::vector<double> sum(fields_);
-  const auto multiply = [&](std::size_t c) {
+  const auto add_inverse_times_sum = [&](std::size_t c) {
     for (std::size_t i = 0; i < fields_; ++i) {
       double value = 0;
       for (std::size_t j = 0; j < fields_; ++j) value += inverse_[c * block + i * fields_ + j] * sum[j];
-      x[c * fields_ + i] = value;
+      x[c * fields_ + i] += value;
     }
   };
   for (const std::int32_t cell : order_) {
     const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t i = 0; i < fields_; ++i) sum[i] = x[c * fields_ + i];
+    for (std::size_t i = 0; i < fields_; ++i) sum[i] = std::exchange(x[c * fields_ + i], 0.0);
     for (std::size_t side = 0; side < 6; ++side) {
       const std::int32_t n = neighbour_[6 * c + side];
       if (n < 0 || rank_[n] > rank_[c]) continue;
       for (std::size_t i = 0; i < fields_; ++i) sum[i] += beside_[(c * 6 + side) * fields_ + i] * x[n * fields_ + i];
     }
-    multiply(c);
+    add_inverse_times_sum(c);
   }
   for (auto place = order_.rbegin(); place != order_.rend(); ++place) {
     const auto c = static_cast<std::size_t>(*place);
@@ -132,11 +132,7 @@ void CounterFlowMatrix::precondition(std::vector<double>& x) const {
       if (n < 0 || rank_[n] < rank_[c]) continue;
       for (std::size_t i = 0; i < fields_; ++i) sum[i] += beside_[(c * 6 + side) * fields_ + i] * x[n * fields_ + i];
     }
-    for (std::size_t i = 0; i < fields_; ++i) {
-      double value = 0;
-      for (std::size_t j = 0; j < fields_; ++j) value += inverse_[c * block + i * fields_ + j] * sum[j];
-      x[c * fields_ + i] += value;
-    }
+    add_inverse_times_sum(c);
   }
 }
 

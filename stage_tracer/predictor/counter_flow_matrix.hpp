@@ -14,7 +14,6 @@ class CounterFlowMatrix {
  public:
   CounterFlowMatrix(const BedMesh& mesh, std::size_t fields);
 
-  [[nodiscard]] std::size_t fields() const { return fields_; }
   double& diagonal(std::size_t cell, std::size_t row, std::size_t column) {
     return diagonal_[(cell * fields_ + row) * fields_ + column];
   }

@@ -41,27 +41,20 @@ PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campai
   } else {
     field_ = expected_field(mesh, campaign);
   }
-  const std::vector<bool> persistent = persistent_species(campaign);
   for (const Species& species : campaign.species) {
     if (species.softening) lowest_ore_ = std::max(lowest_ore_, species.none_below);
   }
-  for (std::size_t s = 0; s < persistent.size(); ++s) {
-    volume_rate_ += field_.charge.volume_rate[s];
-    if (persistent[s]) charged_share_ += field_.charge.volume_share[s];
-  }
-  if (!(charged_share_ > 0)) {
+  charged_ = charged_flux(campaign, field_.charge);
+  if (!(charged_share() > 0)) {
     throw Failure(ExitCode::wrong_input,
                   "a prediction needs a species that does not melt: it carries the bed's motion into the raceways; add "
                   "coke to charging.layers, or march instead")
         .at("key", "charging.layers");
   }
-  std::vector<double> weights = dem != nullptr ? dem->removal_by_raceway : std::vector<double>{};
-  if (weights.size() != campaign.raceways.size() || !(*std::max_element(weights.begin(), weights.end()) > 0)) {
-    weights.clear();
-    for (const Raceway& raceway : campaign.raceways) weights.push_back(raceway.dem_removal_rate);
-  }
+  std::vector<double> weights =
+      raceway_weights(campaign, dem != nullptr ? dem->removal_by_raceway : std::vector<double>{});
   if (!(std::accumulate(weights.begin(), weights.end(), 0.0) > 0)) weights.assign(weights.size(), 1.0);
-  sink_ = raceway_sink(mesh, campaign, field_.bed, weights, charged_share_ * volume_rate_);
+  sink_ = raceway_sink(mesh, campaign, field_.bed, weights, charged_share() * charged_.volume_rate);
   std::vector<double> removed(mesh.cells());
   for (std::size_t c = 0; c < mesh.cells(); ++c) removed[c] = sink_[c] * mesh.cell_volume[c];
   surrogate_.emplace(foam, mesh, field_.bed, removed);
@@ -69,7 +62,7 @@ PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campai
 }
 
 std::vector<double> PredictedField::share(const std::vector<double>& ore_temperature) const {
-  std::vector<double> f = persistent_share(mesh_, campaign_, charged_share_, ore_temperature);
+  std::vector<double> f = persistent_share(mesh_, campaign_, charged_share(), ore_temperature);
   const Softening* softening = nullptr;
   for (const Species& species : campaign_.species) {
     if (species.softening) softening = &*species.softening;
@@ -85,7 +78,7 @@ std::vector<double> PredictedField::share(const std::vector<double>& ore_tempera
     const double upper = at_face(5);
     const bool crossed = upper < softening->melted && lower > softening->melted;
     if (!field_.bed[c] || !crossed || mesh_.cell_centre[c][2] < lowest_ore_) continue;
-    f[c] = charged_share_ + (1 - charged_share_) * (lower - softening->melted) / (lower - upper);
+    f[c] = charged_share() + (1 - charged_share()) * (lower - softening->melted) / (lower - upper);
   }
   return f;
 }
@@ -101,10 +94,8 @@ void PredictedField::follow(const std::vector<double>& ore_temperature) {
     field_.storage[c] = f[c] * std::max(field_.solids_fraction[c], least_solids_fraction);
     field_.removal_rate[c] = sink_[c] / field_.storage[c];
   }
-  field_.stock_faces = stock_faces(mesh_, field_.bed, field_.face_flux, volume_rate_);
-  const double height = std::min(campaign_.charging.stock_line, campaign_.top()) - campaign_.bottom();
-  field_.stagnant = stagnant_cells(PathField(mesh_, field_.face_flux, field_.storage), field_.bed,
-                                   10 * height / campaign_.descent_rate);
+  field_.stock_faces = stock_faces(mesh_, field_.bed, field_.face_flux, charged_.volume_rate);
+  field_.stagnant = stagnant_cells(mesh_, campaign_, field_);
 }
 
 }  // namespace cupola

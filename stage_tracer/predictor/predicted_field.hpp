@@ -22,6 +22,8 @@ class PredictedField {
   void follow(const std::vector<double>& ore_temperature);
 
   [[nodiscard]] const GranularField& field() const { return field_; }
+  /// Of the persistent species in the volume charged.
+  [[nodiscard]] double charged_share() const { return charged_.persistent_share; }
 
  private:
   /// f of the tracer stage (`persistent_share`), but in the cell in which the ore melts it is the mean over the cell's
@@ -30,8 +32,7 @@ class PredictedField {
 
   const BedMesh& mesh_;
   const Campaign& campaign_;
-  double charged_share_ = 0;                                      ///< of the persistent species
-  double volume_rate_ = 0;                                        ///< m3/s, all species
+  ChargedFlux charged_;
   double lowest_ore_ = -std::numeric_limits<double>::infinity();  ///< m, `none_below`
   GranularField field_;
   std::vector<double> sink_;  ///< 1/s

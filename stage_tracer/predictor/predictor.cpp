@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "schemas/failure.hpp"
 #include "stage_tracer/bed_composition.hpp"
@@ -79,10 +80,10 @@ CellContents Predictor::guessed_contents(const std::vector<double>& ore_temperat
   return contents;
 }
 
-std::vector<double> Predictor::ore_temperature() const {
-  if (!can_melt(campaign_)) return std::vector<double>(mesh_.cells(), campaign_.charging.temperature);
+MeltingZone Predictor::melting_zone() const {
+  if (!can_melt(campaign_)) return {std::vector<double>(mesh_.cells(), campaign_.charging.temperature), {}, {}, {}};
   const CellContents around = spread(solids_.contents, kernel_);
-  return find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature).ore_temperature;
+  return find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature);
 }
 
 Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock) {
@@ -93,11 +94,7 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
     if (campaign_.species[s].softening) ore = temperatures_.solids[s];
   }
   solids_.contents = guessed_contents(ore);
-  std::vector<double> persistent_flux;
-  const std::vector<bool> persistent = persistent_species(campaign_);
-  double persistent_share_charged = 0;
-  for (std::size_t s = 0; s < persistent.size(); ++s)
-    persistent_share_charged += persistent[s] ? field().charge.volume_share[s] : 0;
+  MeltingZone zone;
   Outcome outcome;
   double tolerance = 20;
   double follow = 1;
@@ -118,9 +115,9 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
     std::optional<Streamlines> lines;
     {
       const auto running = clock.measure("streamlines");
-      persistent_flux.clear();
+      std::vector<double> persistent_flux;
       for (const StockFace& face : field().stock_faces)
-        persistent_flux.push_back(face.volume_rate * persistent_share_charged);
+        persistent_flux.push_back(face.volume_rate * granular_.charged_share());
       lines.emplace(mesh_, field().face_flux, field().stock_faces, persistent_flux, settings.lines_per_edge,
                     foam_.rank(), foam_.ranks());
     }
@@ -135,18 +132,13 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
       record.correction = result.correction;
     }
     check_raceways();
-    const std::vector<double> found = ore_temperature();
+    zone = melting_zone();
     // A step cut short makes the change look smaller than what is left.
     record.change = change_of(mesh_, field().bed, solids_.contents, temperatures_, before) / follow;
     if (iteration > 0 && record.change > slow_decrease * outcome.iterations.back().change)
       follow = std::max(least_follow, shorten * follow);
-    for (std::size_t c = 0; c < ore.size(); ++c) ore[c] += follow * (found[c] - ore[c]);
-    record.zone_height = HUGE_VAL;
-    if (can_melt(campaign_)) {
-      const CellContents around = spread(solids_.contents, kernel_);
-      record.zone_height =
-          find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature).melted.height_mean;
-    }
+    for (std::size_t c = 0; c < ore.size(); ++c) ore[c] += follow * (zone.ore_temperature[c] - ore[c]);
+    record.zone_height = can_melt(campaign_) ? zone.melted.height_mean : std::numeric_limits<double>::quiet_NaN();
     outcome.iterations.push_back(record);
     if (foam_.rank() == 0) {
       spdlog::info("iteration {}: change {:.3g} K, {} evaluations (last correction {:.2g} K), zone at {:.3f} m",
@@ -158,7 +150,7 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
     }
     tolerance = std::clamp(inner_over_outer * record.change, 0.2 * settings.tolerance, 20.0);
   }
-  look_for_warnings(outcome);
+  look_for_warnings(zone, outcome);
   return outcome;
 }
 
@@ -182,7 +174,7 @@ void Predictor::check_raceways() const {
   }
 }
 
-void Predictor::look_for_warnings(Outcome& outcome) const {
+void Predictor::look_for_warnings(const MeltingZone& zone, Outcome& outcome) const {
   double volume = 0;
   double reached = 0;
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
@@ -202,8 +194,6 @@ void Predictor::look_for_warnings(Outcome& outcome) const {
         outcome.iterations.back().change, outcome.iterations.size()));
   }
   if (!can_melt(campaign_)) return;
-  const CellContents around = spread(solids_.contents, kernel_);
-  const MeltingZone zone = find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature);
   const double stock = std::min(campaign_.charging.stock_line, campaign_.top());
   const double unmelted = solids_.rates.of(solids_.rates.mass, Cause::unmelted);
   const double melted = solids_.rates.of(solids_.rates.mass, Cause::melted);

@@ -46,7 +46,6 @@ class Predictor {
   Outcome solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock);
 
   [[nodiscard]] const GranularField& field() const { return granular_.field(); }
-  [[nodiscard]] const BedTemperatures& temperatures() const { return temperatures_; }
   [[nodiscard]] const CellContents& contents() const { return solids_.contents; }
   /// As the tracer stage's, of one second of the steady state; nothing is stored.
   [[nodiscard]] Ledger ledger() const;
@@ -56,9 +55,10 @@ class Predictor {
  private:
   void compose(const CellContents& contents);
   [[nodiscard]] CellContents guessed_contents(const std::vector<double>& ore_temperature) const;
-  [[nodiscard]] std::vector<double> ore_temperature() const;
+  /// Of the solids as they stand; without softening an ore as cold as the charge, and no zone.
+  [[nodiscard]] MeltingZone melting_zone() const;
   void check_raceways() const;
-  void look_for_warnings(Outcome& outcome) const;
+  void look_for_warnings(const MeltingZone& zone, Outcome& outcome) const;
 
   FoamCase& foam_;
   const BedMesh& mesh_;

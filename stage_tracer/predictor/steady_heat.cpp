@@ -62,9 +62,8 @@ class SteadyHeat::Evaluation {
         filling_(share_of_persistent(campaign_, bed.field.charge)),
         contents_(std::move(contents)) {
     exchange_.set_rates({gas.flow().mass_flux(), gas.temperature(), bed.state.void_fraction}, contents_, 0);
-    rate_ = exchange_.coefficient();
+    rate_ = exchange_.felt_coefficient();
     for (std::size_t s = 0; s < rate_.size(); ++s) {
-      kernel_.gather(rate_[s]);
       for (double& rate : rate_[s]) rate *= 6 / (campaign_.species[s].diameter * sweep_.capacity()[s]);
     }
     coldest = hottest = campaign_.charging.temperature;

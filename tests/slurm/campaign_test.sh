@@ -2,31 +2,7 @@
 # A tiny campaign on a real Slurm of one node: in an allocation, as one job a stage, and as a chain of jobs; all must end the
 # same, whatever happens to orchestrator and jobs on the way.
 #   campaign_test.sh CUPOLA SOURCE_DIR WORK_DIR
-set -uo pipefail
-cupola=$1
-source=$2
-work=$3
-here=$(dirname "$(realpath "$0")")
-. "$here/one_node.sh"
-. "$here/looks.sh"
-rm -rf "$work"
-mkdir -p "$work"
-orchestrator=
-# What the test started must not outlive it.
-clean_up() {
-  [[ -n $orchestrator ]] && kill -KILL "$orchestrator" 2> /dev/null
-  stop_slurm
-}
-trap clean_up EXIT
-start_slurm "$work/slurm"
-
-fail() {
-  echo "FAILED: $*"
-  tail -n 30 "$work/out"
-  squeue
-  tail -n 5 "$slurm_folder"/slurmctld.log
-  exit 1
-}
+. "$(dirname "$(realpath "$0")")/begin.sh"
 
 # campaign FILE LAUNCH: the tiny campaign, its stages long enough to be caught at work.
 campaign() {

@@ -2,29 +2,7 @@
 # A stage that is longer than its job on a real Slurm: the time limit ends the job with a checkpoint and the next job goes on;
 # a node that fails puts the job back into the queue.
 #   time_limit_test.sh CUPOLA SOURCE_DIR WORK_DIR
-set -uo pipefail
-cupola=$1
-source=$2
-work=$3
-here=$(dirname "$(realpath "$0")")
-. "$here/one_node.sh"
-. "$here/looks.sh"
-rm -rf "$work"
-mkdir -p "$work"
-orchestrator=
-clean_up() {
-  [[ -n $orchestrator ]] && kill -KILL "$orchestrator" 2> /dev/null
-  stop_slurm
-}
-trap clean_up EXIT
-start_slurm "$work/slurm"
-
-fail() {
-  echo "FAILED: $*"
-  tail -n 30 "$work/out"
-  squeue
-  exit 1
-}
+. "$(dirname "$(realpath "$0")")/begin.sh"
 
 sed -e 's/^launch:.*/launch: {slurm: {ranks: 2, time: 90 s, checkpoint_before: 45 s}}/' \
   -e 's/^dem:.*/dem: {relaxation: 1 s, window: 999 s, stop: {at_most: 1000 s}}/' "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"

@@ -26,6 +26,14 @@ testing::StatedBed even(const BedMesh& mesh, const Campaign& campaign) {
   return testing::bed_at_rest(mesh, campaign, solids_fraction);
 }
 
+/// The same fields without a single parcel.
+testing::StatedBed without_parcels(const testing::StatedBed& bed) {
+  testing::StatedBed none;
+  none.solids_fraction = bed.solids_fraction;
+  none.solids_velocity = bed.solids_velocity;
+  return none;
+}
+
 /// A right answer: every number finite, no temperature outside what is put in, balances closed.
 void expect_sound(const testing::TracerProgram& program, double coldest, double hottest) {
   ASSERT_EQ(program.run(), 0) << program.failure();
@@ -76,14 +84,9 @@ TEST(BadInput, FieldWithANumberThatIsNone) {
 }
 
 TEST(BadInput, NoTracer) {
-  const testing::TracerProgram program(testing::column_campaign(rows),
-                                       [](const BedMesh& mesh, const Campaign& campaign) {
-                                         testing::StatedBed bed = even(mesh, campaign);
-                                         testing::StatedBed none;
-                                         none.solids_fraction = bed.solids_fraction;
-                                         none.solids_velocity = bed.solids_velocity;
-                                         return none;
-                                       });
+  const testing::TracerProgram program(
+      testing::column_campaign(rows),
+      [](const BedMesh& mesh, const Campaign& campaign) { return without_parcels(even(mesh, campaign)); });
   expect_refused(program, 65, "parcel");
 }
 
@@ -101,10 +104,8 @@ TEST(BadInput, NoGasInlet) {
 TEST(BadInput, OneTracer) {
   const testing::TracerProgram program(testing::column_campaign(rows),
                                        [](const BedMesh& mesh, const Campaign& campaign) {
-                                         testing::StatedBed bed = even(mesh, campaign);
-                                         testing::StatedBed one;
-                                         one.solids_fraction = bed.solids_fraction;
-                                         one.solids_velocity = bed.solids_velocity;
+                                         const testing::StatedBed bed = even(mesh, campaign);
+                                         testing::StatedBed one = without_parcels(bed);
                                          one.add_parcel(0, bed.position[7], bed.radius[7], bed.mass[7]);
                                          return one;
                                        });
