@@ -23,12 +23,18 @@ function(cupola_library target)
   cupola_own_code(${target})
 endfunction()
 
+# What the sanitizers are run on: programs, and tests of the labels `unit` and `workflow`.
+add_custom_target(sanitized)
+
 # cupola_test(NAME LABEL label SOURCES ... LIBRARIES ...): a GoogleTest program on one process, its tests found by ctest.
 function(cupola_test name)
   cmake_parse_arguments(TEST "" "LABEL" "SOURCES;LIBRARIES" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   cupola_own_code(${name})
   target_link_libraries(${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  if(TEST_LABEL MATCHES "unit|workflow")
+    add_dependencies(sanitized ${name})
+  endif()
   gtest_discover_tests(${name} TEST_PREFIX "${name}." PROPERTIES LABELS "${TEST_LABEL}" TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 

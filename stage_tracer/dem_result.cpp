@@ -21,6 +21,23 @@ void require_finite(const std::vector<double>& values, const std::string& name, 
       .at("entry", std::to_string(bad - values.begin()));
 }
 
+/// Grains leave a part of every cell to the gas.
+void require_gas_in_every_cell(const std::vector<double>& solids_fraction, const BedMesh& mesh,
+                               const std::filesystem::path& file) {
+  const auto bad =
+      std::find_if(solids_fraction.begin(), solids_fraction.end(), [](double f) { return f < 0 || f >= 1; });
+  if (bad == solids_fraction.end()) return;
+  const auto cell = static_cast<std::size_t>(bad - solids_fraction.begin());
+  const Vector3& at = mesh.cell_centre[cell];
+  throw Failure(
+      ExitCode::wrong_input,
+      fmt::format("solids_fraction in {} is {:.4g} in the cell at ({:.4g}, {:.4g}, {:.4g}) m: it leaves no gas "
+                  "there (expected 0 to below 1); run the DEM stage again, with stiffer contacts if its "
+                  "report shows large overlaps",
+                  file.string(), *bad, at[0], at[1], at[2]))
+      .at("cell", std::to_string(cell));
+}
+
 std::vector<Vector3> vectors(const std::vector<double>& rows) {
   std::vector<Vector3> result(rows.size() / 3);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = {rows[3 * i], rows[3 * i + 1], rows[3 * i + 2]};
@@ -71,6 +88,7 @@ DemResult read_dem_result(const std::filesystem::path& file, const BedMesh& mesh
     return values;
   };
   result.solids_fraction = field("solids_fraction", 1);
+  require_gas_in_every_cell(result.solids_fraction, mesh, file);
   result.solids_growth = field("solids_growth", 1);
   result.contact_fraction = field("contact_fraction", 1);
   result.solids_velocity = vectors(field("solids_velocity", 3));

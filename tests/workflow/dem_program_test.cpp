@@ -171,6 +171,21 @@ TEST_P(DemProgram, RunsStopsAndGoesOnAsIfNothingHadHappened) {
 
 INSTANTIATE_TEST_SUITE_P(Ranks, DemProgram, testing::Values(1, 2));
 
+TEST(DemProgram, ABedThatIsTakenAwayEndsWithAdvice) {
+  const TemporaryFolder temporary;
+  Task task = tiny_task(1);
+  for (Raceway& raceway : task.campaign.raceways) {
+    raceway.box = {Vector3{-0.4, -0.2, 0}, Vector3{0.4, 0.2, task.campaign.top()}};
+    raceway.dem_removal_rate = 1e6;
+  }
+  prepare_task(temporary.path(), task);
+  EXPECT_EQ(wait_for(start(stage_command(temporary.path(), 1))), 70);
+  const auto failure = read_failure(temporary.path());
+  ASSERT_TRUE(failure);
+  EXPECT_NE(failure->at("sentence").get<std::string>().find("no parcel is left"), std::string::npos) << *failure;
+  EXPECT_FALSE(std::filesystem::exists(temporary.path() / "result.hdf"));
+}
+
 TEST(DemProgram, AWrongTaskIsRefused) {
   const TemporaryFolder temporary;
   EXPECT_EQ(wait_for(start({CUPOLA_DEM, (temporary.path() / "nowhere").string()})), 65);

@@ -132,6 +132,18 @@ TEST(BadInput, VoidFractionOfFivePercent) {
   EXPECT_EQ(program.result().summary()["clamps"]["void_fraction_cells"].get<int>(), 2 * rows);
 }
 
+TEST(BadInput, CellWithoutGas) {
+  for (const double full : {1.0, 1.3, -0.1}) {
+    const testing::TracerProgram program(testing::column_campaign(rows),
+                                         [&](const BedMesh& mesh, const Campaign& campaign) {
+                                           testing::StatedBed bed = even(mesh, campaign);
+                                           bed.solids_fraction[4] = full;
+                                           return bed;
+                                         });
+    expect_refused(program, 65, "no gas");
+  }
+}
+
 TEST(BadInput, NusseltFactorOfAThousand) {
   Campaign campaign = testing::column_campaign(rows);
   campaign.heat->nusselt_factor = 1000;
