@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -62,16 +64,38 @@ std::string mesh_grid(const DataItems& items) {
   return text;
 }
 
-/// The points of a group, such as `Tracers`, with their properties.
+constexpr const char* vertex_file = "vertices.hdf";
+constexpr const char* vertex_dataset = "vertex";
+
+/// The points of a group, such as `Tracers`, with their properties.  ParaView draws cells: each point is one, and these
+/// cells want numbers, which the results do not hold.
 std::string point_grid(const DataItems& items, const std::string& group) {
   const std::size_t points = items.file().shape(group + "/position").first;
   std::string text = fmt::format(
-      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n"
-      "        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-      points, items.item(group + "/position"));
+      "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\">"
+      R"(<DataItem Dimensions="{0}" NumberType="Int" Precision="8" Format="HDF">{1}:/{2}</DataItem>)"
+      "</Topology>\n        <Geometry GeometryType=\"XYZ\">{3}</Geometry>\n",
+      points, vertex_file, vertex_dataset, items.item(group + "/position"));
   for (const std::string& name : items.file().names(group))
     if (name != "position") text += items.attribute(name, group + "/" + name, "Node");
   return text;
+}
+
+/// The numbers 0, 1, 2 … for as many points as the largest result has.
+void write_vertices(const std::filesystem::path& run, const std::vector<StageReport>& stages) {
+  std::size_t most = 0;
+  for (const StageReport& stage : stages) {
+    if (!stage.readable) continue;
+    const HdfReader file(stage.result());
+    for (const char* dataset : {"Packing/position", "Tracers/position"})
+      if (file.has(dataset)) most = std::max(most, file.shape(dataset).first);
+  }
+  if (most == 0) return;
+  std::vector<std::int64_t> numbers(most);
+  std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
+  HdfWriter file(run / "fields" / vertex_file);
+  file.write(vertex_dataset, numbers);
+  file.commit();
 }
 
 /// One time series over the episodes. @param needed what a result must hold to be in it
@@ -105,6 +129,7 @@ void write_paraview_views(const std::filesystem::path& run_folder, const std::ve
   if (error)
     throw Failure(ExitCode::input_output,
                   fmt::format("{}: cannot be made: {}", (run_folder / "fields").string(), error.message()));
+  write_vertices(run_folder, stages);
   const auto points = [](const std::string& group) {
     return [group](const DataItems& items) { return point_grid(items, group); };
   };

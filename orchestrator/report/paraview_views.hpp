@@ -7,7 +7,8 @@
 namespace cupola {
 
 /// `RUN/fields/*.xdmf`: the results of all episodes as time series that ParaView opens, one time step an episode; they
-/// hold no numbers but name the HDF5 data of the results, relative to the run folder, so that it can be moved.
+/// hold no numbers but name the HDF5 data of the results, relative to the run folder, so that it can be moved.  The
+/// points' own numbers, which ParaView needs to draw them, are in `vertices.hdf` beside them.
 ///
 ///   `dem_fields.xdmf`, `tracer_fields.xdmf`   the mesh with its cell fields
 ///   `parcels.xdmf`, `tracers.xdmf`            points with their properties

@@ -48,9 +48,11 @@ for index in finished:
     assert at(dem_fields, index).GetNumberOfCells() == episode["dem"]["cells"], "cells of the DEM stage"
     points = at(tracers, index)
     assert points.GetNumberOfPoints() == episode["tracer"]["tracers"], "tracers"
+    assert points.GetNumberOfCells() == points.GetNumberOfPoints(), "each tracer is a cell: only cells are drawn"
     assert len(values(points.GetPointData(), "temperature")) == points.GetNumberOfPoints(), "temperatures of tracers"
     packing = at(parcels, index)
     assert packing.GetNumberOfPoints() == episode["dem"]["parcels"], "parcels"
+    assert packing.GetNumberOfCells() == packing.GetNumberOfPoints(), "each parcel is a cell"
     radii = [r for (r,) in values(packing.GetPointData(), "radius")]
     assert 0 < min(radii) and max(radii) < 1, "radii"
     box = mesh.GetBounds()
