@@ -6,7 +6,7 @@ RUN_DIR ?= runs/slot_quick
 ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
 CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
 
-.PHONY: run test test-long test-slurm setup build bench bench-reference sanitize tidy tidy-all format-check clean
+.PHONY: run test test-long test-slurm setup build bench bench-reference sanitize fuzz tidy tidy-all format-check clean
 
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
@@ -20,6 +20,7 @@ test: build
 test-long: build
 	@echo "== running all tests, the long ones too"
 	$(CTEST) --test-dir $(BUILD)
+	@$(MAKE) fuzz FUZZ_SECONDS=600
 
 test-slurm: build
 	@echo "== a real Slurm of one node, started by the test"
@@ -52,6 +53,15 @@ sanitize: setup
 	cmake --build build-sanitize -j $(JOBS) --target sanitized
 	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long
 
+# Fuzzers of the campaign reader and of the readers of HDF5: the kept corpus is replayed, then FUZZ_SECONDS each for something new.
+FUZZ_SECONDS ?= 30
+fuzz: setup
+	@echo "== fuzzers"
+	@[ -f build-fuzz/build.ninja ] || CC=clang CXX=clang++ cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+	  -DCUPOLA_SANITIZE=ON -DCUPOLA_FUZZ=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
+	cmake --build build-fuzz -j $(JOBS) --target fuzzers
+	@tools/fuzz.sh build-fuzz $(FUZZ_SECONDS)
+
 tidy: build
 	@tools/tidy.sh $(BUILD) physics/closures physics/motion
 
@@ -62,4 +72,4 @@ format-check:
 	@git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror && echo "format: fine"
 
 clean:
-	rm -rf build build-sanitize
+	rm -rf build build-sanitize build-fuzz

@@ -15,6 +15,9 @@ function(cupola_own_code target)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize=vptr,null -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
+  if(CUPOLA_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link -fno-sanitize-recover=undefined)
+  endif()
 endfunction()
 
 # cupola_library(NAME sources...): a static library of ours.

@@ -29,8 +29,8 @@ std::unique_ptr<RunFolder> open_or_say_what_is_whole(const fs::path& folder) {
     return RunFolder::open(folder);
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::held || !fs::exists(folder / "run.json")) throw;
-    throw Failure(failure.code(), fmt::format("{} {} `cupola verify {}` looks at everything.", failure.what(),
-                                              still_whole(folder), folder.string()));
+    throw Failure(failure.code(), fmt::format("{} `cupola verify {}` looks at everything.",
+                                              still_whole(folder, failure.what()), folder.string()));
   }
 }
 

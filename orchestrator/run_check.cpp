@@ -64,10 +64,16 @@ class Looker {
 
   void look_at_journal() {
     const fs::path file = run_ / "journal.jsonl";
-    if (!fs::exists(file)) return;
-    ++check_.files;
-    if (!attempt_to([&] { journal_ = read_journal(file); })) return;
-    if (!journal_.empty() && !campaign_hash_.empty() && journal_.front().value("campaign_hash", "") != campaign_hash_)
+    if (fs::exists(file)) {
+      ++check_.files;
+      if (!attempt_to([&] { journal_ = read_journal(file); })) return;
+    }
+    if (journal_.empty()) {
+      if (fs::exists(run_ / "episodes"))
+        check_.problems.push_back(file.string() + ": missing or empty, although stages have been run");
+      return;
+    }
+    if (!campaign_hash_.empty() && journal_.front().value("campaign_hash", "") != campaign_hash_)
       check_.problems.push_back(file.string() + ": the journal of another campaign");
     if (const std::string text = read_text(file); !text.empty() && text.back() != '\n')
       check_.remarks.push_back(file.string() + ": its last line was cut short; the next start drops it");
@@ -158,6 +164,10 @@ RunCheck check_run(const fs::path& run) {
   if (!fs::exists(run / "run.json"))
     throw Failure(ExitCode::wrong_input, fmt::format("{}: not a run folder (run.json is missing).", run.string()));
   return Looker(run).look();
+}
+
+std::string still_whole(const fs::path& run, const std::string& sentence) {
+  return fmt::format("{}{} {}", sentence, sentence.ends_with('.') ? "" : ".", still_whole(run));
 }
 
 std::string still_whole(const fs::path& run) {

@@ -21,5 +21,7 @@ RunCheck check_run(const std::filesystem::path& run);
 
 /// One sentence: which results of a run are whole and can still be used. Never fails.
 std::string still_whole(const std::filesystem::path& run);
+/// The same after a sentence about what is not.
+std::string still_whole(const std::filesystem::path& run, const std::string& sentence);
 
 }  // namespace cupola

@@ -73,8 +73,16 @@ Campaign frozen_campaign(const fs::path& folder, const json& information) {
   return read.campaign;
 }
 
-/// Whether the journal belongs to this campaign.
+/// Whether the journal is there where it must be, and belongs to this campaign.
 void check_beginning(const fs::path& folder, const std::vector<json>& journal, const std::string& campaign_hash) {
+  // The journal begins before the first stage does.
+  if (journal.empty() && fs::exists(folder / "episodes"))
+    throw Failure(
+        ExitCode::input_output,
+        fmt::format("{}: missing or empty, although stages have been run. Put the journal back from a copy, or "
+                    "begin a new run folder.",
+                    (folder / journal_name).string()))
+        .at("file", (folder / journal_name).string());
   if (!journal.empty() && journal.front().value("campaign_hash", "") != campaign_hash)
     throw Failure(ExitCode::wrong_input,
                   fmt::format("{}: the journal of another campaign", (folder / journal_name).string()));
@@ -143,6 +151,7 @@ void RunFolder::load() {
   information_ = read_information(path_);
   campaign_ = frozen_campaign(path_, information_);
   campaign_hash_ = information_["campaign_hash"].get<std::string>();
+  if (!fs::exists(path_ / journal_name)) check_beginning(path_, {}, campaign_hash_);  // else it is made here
   journal_ = std::make_unique<Journal>(path_ / journal_name);
   check_beginning(path_, journal_->records(), campaign_hash_);
   if (journal_->records().empty())

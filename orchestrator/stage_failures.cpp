@@ -87,6 +87,7 @@ void StageRunner::begin_retry(StagePlace& place, const StageState& state, Patien
     for (const auto& [key, value] : changes) changed = with_changed_key(changed, key, value);
   }
   place.attempt = state.attempt + 1;
+  begin_anew_where_removed(place);
   json content = about(place);
   content["because"] = sentence;
   content["changes"] = changes;

@@ -1,6 +1,7 @@
 #include "orchestrator/stage_runner.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 
@@ -50,6 +51,7 @@ std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
       return state.folder;
     }
     if (signals_.stop_requests() > 0) return std::nullopt;
+    begin_anew_where_removed(place);
     switch (state.condition) {
       case Condition::running:
         wait_for_orphan(place, state);
@@ -75,7 +77,7 @@ void StageRunner::accept(const StagePlace& place, const StageState& state) {
     try {
       verify_manifest(state.folder);
     } catch (Failure& failure) {
-      throw Failure(failure.code(), fmt::format("{} {}", failure.what(), still_whole(run_.path())));
+      throw Failure(failure.code(), still_whole(run_.path(), failure.what()));
     }
     return;
   }
@@ -95,6 +97,28 @@ void StageRunner::accept(const StagePlace& place, const StageState& state) {
       "{}: finished{}", name_of(place),
       progress ? ", " + duration_text(progress->process_seconds) + " in " + duration_text(progress->wall_seconds)
                : ""));
+}
+
+void StageRunner::begin_anew_where_removed(const StagePlace& place) {
+  if (std::filesystem::exists(folder(place)) ||
+      last_record(run_.journal().records(), "stage-preparing", place.episode, place.kind, place.attempt) == nullptr)
+    return;
+  std::vector<std::string> later;
+  if (place.kind == TaskKind::dem &&
+      std::filesystem::exists(stage_folder(run_.path(), place.episode, TaskKind::tracer)))
+    later.push_back(stage_folder(run_.path(), place.episode, TaskKind::tracer).string());
+  for (int episode = place.episode + 1;; ++episode) {
+    const auto next = stage_folder(run_.path(), episode, TaskKind::dem).parent_path();
+    if (!std::filesystem::exists(next)) break;
+    later.push_back(next.string());
+  }
+  if (!later.empty())
+    throw Failure(ExitCode::input_output,
+                  fmt::format("{}: removed, and what comes after it was made from it. Put it back from a copy, or move "
+                              "these away too and resume: {}.",
+                              folder(place).string(), fmt::join(later, ", ")));
+  run_.journal().append("stage-begun-anew", about(place));
+  view_.say(fmt::format("{}: its folder was removed; it begins anew", name_of(place)));
 }
 
 void StageRunner::wait_for_orphan(const StagePlace& place, const StageState& state) {

@@ -18,6 +18,7 @@ namespace cupola {
 ///
 /// - A finished stage is never run again; its hashes are checked.
 /// - One that was interrupted goes on in its folder, from its checkpoint.
+/// - One whose folder was taken away begins anew, unless later stages were made from what it held.
 /// - One that still runs without an orchestrator is waited for.
 /// - One whose numbers went bad (70) is tried again once, in a new folder, from its last checkpoint and with the
 /// changed
@@ -52,6 +53,9 @@ class StageRunner {
 
   void accept(const StagePlace& place, const StageState& state);
   void wait_for_orphan(const StagePlace& place, const StageState& state);
+  /// Where the journal knows of a folder that is not there any more: what it says of it no longer counts.
+  /// @throws Failure input_output where later stages were made from it
+  void begin_anew_where_removed(const StagePlace& place);
   void begin_retry(StagePlace& place, const StageState& state, Patience& patience);
   /// Prepares and runs the attempt. @return false where a stop was asked for or the stage was stopped
   bool run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,

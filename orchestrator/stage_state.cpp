@@ -62,8 +62,12 @@ StageState stage_state(const std::filesystem::path& run, const std::vector<json>
 
 const json* last_record(const std::vector<json>& journal, const std::string& event, int episode, TaskKind kind,
                         int attempt) {
-  for (auto record = journal.rbegin(); record != journal.rend(); ++record)
-    if (record->value("event", "") == event && is_about(*record, episode, kind, attempt)) return &*record;
+  for (auto record = journal.rbegin(); record != journal.rend(); ++record) {
+    if (!is_about(*record, episode, kind, attempt)) continue;
+    const std::string found = record->value("event", "");
+    if (found == event) return &*record;
+    if (found == "stage-begun-anew") return nullptr;
+  }
   return nullptr;
 }
 

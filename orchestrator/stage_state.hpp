@@ -34,7 +34,7 @@ StageState stage_state(const std::filesystem::path& run, const std::vector<nlohm
 /// Whether a journal line is about this attempt of this stage.
 bool is_about(const nlohmann::json& record, int episode, TaskKind kind, int attempt);
 
-/// The last record of an event about an attempt; null where there is none.
+/// The last record of an event about an attempt, since it was last begun anew; null where there is none.
 const nlohmann::json* last_record(const std::vector<nlohmann::json>& journal, const std::string& event, int episode,
                                   TaskKind kind, int attempt);
 

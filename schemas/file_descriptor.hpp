@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -21,6 +22,8 @@ class FileDescriptor {
   [[nodiscard]] int release();
   /// Writes all of it. @throws Failure input_output
   void write(const std::string& text) const;
+  /// Up to `count` bytes into `buffer`; fewer only at the end of the file. @throws Failure input_output
+  [[nodiscard]] std::size_t read(char* buffer, std::size_t count) const;
   /// fsync(2); file systems that cannot sync a folder are forgiven. @throws Failure input_output
   void sync() const;
 

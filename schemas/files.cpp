@@ -5,7 +5,6 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -46,6 +45,19 @@ void FileDescriptor::write(const std::string& text) const {
   }
 }
 
+std::size_t FileDescriptor::read(char* buffer, std::size_t count) const {
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t taken = ::read(descriptor_, buffer + done, count - done);
+    if (taken < 0 && errno != EINTR) {
+      throw_system_failure(file_, "read");
+    }
+    if (taken == 0) break;
+    done += taken > 0 ? static_cast<std::size_t>(taken) : 0;
+  }
+  return done;
+}
+
 void FileDescriptor::sync() const {
   if (::fsync(descriptor_) != 0 && errno != EINVAL) {
     throw_system_failure(file_, "sync");
@@ -54,26 +66,13 @@ void FileDescriptor::sync() const {
 
 namespace {
 
-using FilePointer = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-FilePointer open_to_read(const std::filesystem::path& file) {
-  FilePointer opened(std::fopen(file.c_str(), "rbe"), std::fclose);
-  if (!opened) {
-    throw_system_failure(file, "open");
-  }
-  return opened;
-}
-
 /// Hands the file's bytes over piece by piece.
 template <class Take>
 void for_each_piece(const std::filesystem::path& file, Take take) {
-  const FilePointer opened = open_to_read(file);
-  std::vector<char> buffer(1U << 20U);
-  while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), opened.get())) {
+  const FileDescriptor opened(file, O_RDONLY);
+  std::vector<char> buffer(1U << 16U);
+  while (const std::size_t count = opened.read(buffer.data(), buffer.size())) {
     take(buffer.data(), count);
-  }
-  if (std::ferror(opened.get()) != 0) {
-    throw_system_failure(file, "read");
   }
 }
 

@@ -1,5 +1,7 @@
 #include "schemas/hdf_handle.hpp"
 
+#include <string_view>
+
 namespace cupola::hdf {
 
 Handle& Handle::operator=(Handle&& other) noexcept {
@@ -37,19 +39,22 @@ std::string last_error() {
   // From the outermost call inwards, so that the last one visited is the cause.
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, visit, &message);
   H5Eclear2(H5E_DEFAULT);
+  // Where the system refused, its own words are inside, after the time and the numbers of descriptors.
+  static constexpr std::string_view system_words = "error message = '";
+  if (const auto begin = message.find(system_words); begin != std::string::npos) {
+    const auto first = begin + system_words.size();
+    return message.substr(first, message.find('\'', first) - first);
+  }
   return message.empty() ? "no reason given by HDF5" : message;
 }
 
-bool exists(hid_t file, const std::string& name) {
+std::optional<bool> exists(hid_t file, const std::string& name) {
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
-    if (part != "/" && H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) {
-      H5Eclear2(H5E_DEFAULT);
-      return false;
-    }
-    if (end == std::string::npos) {
-      return true;
-    }
+    const htri_t there = part == "/" ? 1 : H5Lexists(file, part.c_str(), H5P_DEFAULT);
+    if (there < 0) return std::nullopt;
+    if (there == 0) return false;
+    if (end == std::string::npos) return true;
   }
 }
 

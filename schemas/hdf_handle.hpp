@@ -2,6 +2,7 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 /// What HdfWriter and HdfReader share; not for others, who need no HDF5 header.
@@ -41,7 +42,8 @@ constexpr unsigned char least_superblock = 2;
 /// The deepest message on HDF5's error stack, for the end of a sentence; clears the stack.
 std::string last_error();
 
-/// Is there an object of this name?  Unlike H5Lexists, does not fail where a group on the way is missing.
-bool exists(hid_t file, const std::string& name);
+/// Is there an object of this name?  Unlike H5Lexists, does not fail where a group on the way is missing.  None where
+/// the file could not be read: `last_error` says why.
+std::optional<bool> exists(hid_t file, const std::string& name);
 
 }  // namespace cupola::hdf

@@ -1,12 +1,13 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "schemas/failure.hpp"
+#include "schemas/file_descriptor.hpp"
 #include "schemas/hdf.hpp"
 #include "schemas/hdf_handle.hpp"
 
@@ -24,13 +25,31 @@ struct HdfReader::State {
     return failure(ExitCode::wrong_input, fmt::format("dataset '{}' {}", name, what)).at("dataset", name);
   }
 
+  /// What HDF5 could not do: a failed read must never look like something that is not there.
+  [[nodiscard]] Failure unreadable(const std::string& what) const {
+    return failure(ExitCode::input_output, fmt::format("{} cannot be read: {}", what, hdf::last_error()));
+  }
+
+  [[nodiscard]] bool has(const std::string& name) const {
+    const auto there = hdf::exists(file.get(), name);
+    if (!there) throw unreadable("'" + name + "'");
+    return *there;
+  }
+
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const {
+    if (object != "/" && !has(object)) return false;
+    const htri_t there = H5Aexists_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT);
+    if (there < 0) throw unreadable(fmt::format("attribute '{}' of '{}'", name, object));
+    return there > 0;
+  }
+
   [[nodiscard]] hdf::Handle open(const std::string& name) const {
-    if (!hdf::exists(file.get(), name)) {
+    if (!has(name)) {
       throw wrong(name, "is missing: the file was written by another kind of task or by an older program");
     }
     hdf::Handle set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set) {
-      throw wrong(name, "cannot be opened: " + hdf::last_error());
+      throw unreadable("dataset '" + name + "'");
     }
     return set;
   }
@@ -75,21 +94,19 @@ struct HdfReader::State {
     }
     std::vector<Value> values(stored_rows * stored_columns);
     if (H5Dread(set.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-      throw failure(ExitCode::input_output, fmt::format("dataset '{}' cannot be read: {}", name, hdf::last_error()));
+      throw unreadable("dataset '" + name + "'");
     }
     return values;
   }
 
   [[nodiscard]] hdf::Handle open_attribute(const std::string& object, const std::string& name,
                                            H5T_class_t wanted) const {
-    hdf::Handle attribute;
-    if (object == "/" || hdf::exists(file.get(), object)) {
-      attribute = {H5Aopen_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose};
-    }
-    if (!attribute) {
-      H5Eclear2(H5E_DEFAULT);
+    if (!has_attribute(object, name)) {
       throw failure(ExitCode::wrong_input, fmt::format("attribute '{}' of '{}' is missing", name, object));
     }
+    hdf::Handle attribute(H5Aopen_by_name(file.get(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                          H5Aclose);
+    if (!attribute) throw unreadable(fmt::format("attribute '{}' of '{}'", name, object));
     const hdf::Handle type(H5Aget_type(attribute.get()), H5Tclose);
     const hdf::Handle space(H5Aget_space(attribute.get()), H5Sclose);
     if (H5Tget_class(type.get()) != wanted || H5Sget_simple_extent_npoints(space.get()) != 1) {
@@ -105,7 +122,7 @@ struct HdfReader::State {
     const hdf::Handle attribute = open_attribute(object, name, wanted);
     Value value{};
     if (H5Aread(attribute.get(), memory, &value) < 0) {
-      throw failure(ExitCode::input_output, fmt::format("attribute '{}' of '{}': {}", name, object, hdf::last_error()));
+      throw unreadable(fmt::format("attribute '{}' of '{}'", name, object));
     }
     return value;
   }
@@ -124,7 +141,7 @@ struct HdfReader::State {
     }
     std::string value(length, '\0');
     if (reader(type.get(), value.data()) < 0) {
-      throw failure(ExitCode::input_output, fmt::format("{} cannot be read: {}", what, hdf::last_error()));
+      throw unreadable(what);
     }
     value.resize(value.find_last_not_of('\0') + 1);
     return value;
@@ -133,21 +150,26 @@ struct HdfReader::State {
 
 HdfReader::HdfReader(std::filesystem::path file) : state_(std::make_unique<State>()) {
   state_->path = std::move(file);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(state_->path, ignored)) {
+  std::error_code problem;
+  const auto kind = std::filesystem::status(state_->path, problem).type();
+  if (kind == std::filesystem::file_type::none) {
+    throw state_->failure(ExitCode::input_output, "cannot be looked at: " + problem.message());
+  }
+  if (kind != std::filesystem::file_type::regular) {
     throw state_->failure(ExitCode::input_output, "there is no such file");
   }
   // HDF5 looks for its signature further on where it is not at the beginning; ours is there.
-  std::array<unsigned char, 9> head{};
-  std::ifstream(state_->path, std::ios::binary).read(reinterpret_cast<char*>(head.data()), head.size());
+  std::array<char, 9> head{};
+  static_cast<void>(FileDescriptor(state_->path, O_RDONLY).read(head.data(), head.size()));
   if (std::memcmp(head.data(), "\x89HDF\r\n\x1a\n", 8) != 0) {
     throw state_->failure(ExitCode::input_output, "not a whole HDF5 file (no signature at its beginning)");
   }
-  if (head[8] < hdf::least_superblock) {
+  if (static_cast<unsigned char>(head[8]) < hdf::least_superblock) {
     throw state_->failure(ExitCode::input_output,
                           "not a whole HDF5 file (of a version without checksums, which cupola does not write)");
   }
-  state_->file = {H5Fopen(state_->path.c_str(), H5F_ACC_RDONLY, hdf::file_access().get()), H5Fclose};
+  const hdf::Handle access = hdf::file_access();  // closing it would clear what HDF5 says
+  state_->file = {H5Fopen(state_->path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
   if (!state_->file) {
     throw state_->failure(ExitCode::input_output, "not a whole HDF5 file (" + hdf::last_error() + ")");
   }
@@ -157,11 +179,10 @@ HdfReader::~HdfReader() = default;
 
 const std::filesystem::path& HdfReader::file() const { return state_->path; }
 
-bool HdfReader::has(const std::string& name) const { return hdf::exists(state_->file.get(), name); }
+bool HdfReader::has(const std::string& name) const { return state_->has(name); }
 
 bool HdfReader::has_attribute(const std::string& object, const std::string& name) const {
-  return (object == "/" || has(object)) &&
-         H5Aexists_by_name(state_->file.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+  return state_->has_attribute(object, name);
 }
 
 std::vector<std::string> HdfReader::names(const std::string& group) const {
@@ -175,8 +196,7 @@ std::vector<std::string> HdfReader::names(const std::string& group) const {
     return 0;
   };
   if (!opened || H5Literate(opened.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &found) < 0) {
-    throw state_->failure(ExitCode::input_output,
-                          fmt::format("group '{}' cannot be listed: {}", group, hdf::last_error()));
+    throw state_->unreadable("group '" + group + "'");
   }
   std::sort(found.begin(), found.end());
   return found;

@@ -47,7 +47,10 @@ struct HdfWriter::State {
 
   /// Makes a group and those on the way to it, where they are not there yet.
   void make_group(const std::string& name) const {
-    if (name.empty() || name == "/" || hdf::exists(file(), name)) return;
+    if (name.empty() || name == "/") return;
+    const auto there = hdf::exists(file(), name);
+    if (!there) fail("group '" + name + "'");
+    if (*there) return;
     make_group(parent_of(name));
     const auto creation = timeless(H5P_GROUP_CREATE);
     const hdf::Handle group(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose);
@@ -107,8 +110,9 @@ HdfWriter::HdfWriter(std::filesystem::path file) : state_(std::make_unique<State
   state_->final_file = std::move(file);
   state_->temporary_file = temporary_beside(state_->final_file);
   const auto creation = timeless(H5P_FILE_CREATE);
-  state_->handle = hdf::Handle(
-      H5Fcreate(state_->temporary_file.c_str(), H5F_ACC_TRUNC, creation.get(), hdf::file_access().get()), H5Fclose);
+  const hdf::Handle access = hdf::file_access();  // closing it would clear what HDF5 says
+  state_->handle =
+      hdf::Handle(H5Fcreate(state_->temporary_file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);
   if (!state_->handle) {
     state_->fail("the file");
   }

@@ -153,6 +153,7 @@ void DemStage::finish_block() {
   watch();
   if (state_.phase != DemPhase::building) remove_parcels();
   charge();
+  engine_->exchange();
 }
 
 void DemStage::next_phase() {

@@ -61,7 +61,11 @@ class Engine {
   /// Sets the contact radii, in the order of `owned`; masses stay.
   virtual void resize(const std::vector<double>& radii) = 0;
 
-  /// The whole state, on rank 0; empty on the others.
+  /// Brings every parcel to the rank that owns its position, and inside the period.  To be done after each block:
+  /// `snapshot` does it too, and sums over parcels must not depend on when one was taken.
+  virtual void exchange() = 0;
+
+  /// The whole state, on rank 0; empty on the others.  Changes nothing after an `exchange`.
   [[nodiscard]] virtual std::vector<std::uint8_t> snapshot() = 0;
 };
 

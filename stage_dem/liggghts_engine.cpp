@@ -1,10 +1,13 @@
 #include "stage_dem/liggghts_engine.hpp"
 
 #include <fmt/format.h>
+#include <liggghts/abstract_mesh.h>
 #include <liggghts/atom.h>
 #include <liggghts/atom_vec.h>
+#include <liggghts/comm.h>
 #include <liggghts/domain.h>
 #include <liggghts/fix.h>
+#include <liggghts/fix_mesh.h>
 #include <liggghts/lammps.h>
 #include <liggghts/library.h>
 #include <liggghts/modify.h>
@@ -14,9 +17,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <string_view>
 #include <unordered_set>
 
 #include "schemas/failure.hpp"
+#include "schemas/files.hpp"
 #include "schemas/plain_path.hpp"
 #include "stage_dem/liggghts_instance.hpp"
 #include "stage_dem/liggghts_script.hpp"
@@ -44,6 +49,7 @@ class LiggghtsEngine final : public Engine {
     const PlainPath wall_folder(wall.parent_path());
     const auto wall_file = (wall_folder.path() / wall.filename()).string();
     for (const auto& line : liggghts_physics(campaign, wall_file, set_up.time_step)) liggghts_.command(line);
+    wall_file_ = wall;
     if (resumed != 0) make_ready();
   }
 
@@ -136,6 +142,16 @@ class LiggghtsEngine final : public Engine {
     }
   }
 
+  void exchange() override {
+    if (!ready_) return;
+    save_contact_history();
+    liggghts_->domain->pbc();
+    liggghts_->domain->reset_box();
+    liggghts_->comm->setup();
+    liggghts_->comm->exchange();
+    liggghts_->comm->borders();  // the map from tags to places is lost in between
+  }
+
   std::vector<std::uint8_t> snapshot() override {
     const MemoryFile file;
     liggghts_.command("write_restart " + file.name());
@@ -156,11 +172,29 @@ class LiggghtsEngine final : public Engine {
     liggghts_.command("read_restart " + file.name());
   }
 
+  /// LIGGGHTS takes a file that it cannot read to its end for a shorter one: a bed without some of its walls.
+  void check_walls() const {
+    const std::string text = read_text(wall_file_);
+    const std::string_view mark = "endfacet";
+    int expected = 0;
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + mark.size())) ++expected;
+    auto& modify = *liggghts_->modify;
+    auto* walls = dynamic_cast<LAMMPS_NS::FixMesh*>(modify.fix[modify.find_fix("wall_mesh")]);
+    const int found = walls == nullptr ? 0 : walls->mesh()->sizeGlobal();
+    if (found == expected) return;
+    throw Failure(
+        ExitCode::input_output,
+        fmt::format("{}: LIGGGHTS read {} of its {} triangles: the disk failed, or the file is damaged; run again",
+                    wall_file_.string(), found, expected))
+        .at("file", wall_file_.string());
+  }
+
   /// The first run sets per-parcel properties to their defaults, or to what the restart file holds: an empty one before
   /// anything is written to them.
   void make_ready() {
     const bool restored = liggghts_->update->ntimestep > 0;
     liggghts_.command("run 0 post no");
+    check_walls();
     ready_ = true;
     if (restored) return;
     const auto& atom = *liggghts_->atom;
@@ -272,6 +306,7 @@ class LiggghtsEngine final : public Engine {
 
   PlainPath plain_folder_;
   LiggghtsInstance liggghts_;
+  std::filesystem::path wall_file_;
   double depth_;        ///< m, period along y; 0 with walls
   bool ready_ = false;  ///< whether a first run has been made
 };

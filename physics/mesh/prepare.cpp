@@ -57,10 +57,16 @@ void check_inlet_names(const Campaign& campaign) {
 void check_mesh(const std::filesystem::path& case_folder) {
   const std::string printed = run_foam_tool("checkMesh", {"-constant"}, case_folder);
   if (printed.find("Mesh OK") == std::string::npos) {
+    const std::filesystem::path log = case_folder / "log.checkMesh";
+    if (printed.find("Failed ") == std::string::npos) {
+      throw Failure(ExitCode::input_output,
+                    fmt::format("{}: checkMesh did not come to a verdict: is the disk full? Run again", log.string()))
+          .at("file", log.string());
+    }
     throw Failure(ExitCode::wrong_input,
                   fmt::format("checkMesh finds the mesh wanting (see {}): cells too flat, or walls too steep for "
                               "scene.mesh.cell; change it, or the profile",
-                              (case_folder / "log.checkMesh").string()))
+                              log.string()))
         .at("key", "scene.mesh");
   }
 }

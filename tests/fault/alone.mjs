@@ -5,7 +5,7 @@ import { aloneFolder, campaignFile, check, freshFolder, path, readFileSync, run,
 const shim = process.argv[5];
 freshFolder('.');
 const tiny = readFileSync(path.join(sourceFolder, 'cases/tiny/campaign.yaml'), 'utf8');
-writeFileSync(campaignFile, tiny.replace(/^launch:.*$/m, 'launch: {ranks: 2}'));
+writeFileSync(campaignFile, tiny.replace(/^launch:.*$/m, `launch: {ranks: ${process.env.CUPOLA_FAULT_RANKS ?? 2}}`));
 // Counts the changes and reads of files by program on the way: places for faults.
 const ended = run(['run', campaignFile, '--run-dir', aloneFolder], {
   environment: { LD_PRELOAD: shim, CUPOLA_FAULT_PROGRAM: '*', CUPOLA_FAULT_UNDER: aloneFolder, CUPOLA_FAULT_COUNT: path.join(workFolder, 'operations') },

@@ -12,6 +12,9 @@
  *   CUPOLA_FAULT_COUNT    a file that gets a line `program changes reads` when the program ends
  *   CUPOLA_FAULT_CLOCK    seconds the clock of the day is put forward (negative: back)
  *
+ * A test in the program itself sets the next fault with cupola_fault_arm (found by dlsym), and asks with cupola_fault_reads how
+ * many reads there were since.
+ *
  * A power cut loses the bytes written to a file since its last fsync, a file made since, and a rename whose folder was not
  * synced since: the file has its old name and the old file is back (as a journalling file system leaves it).
  */
@@ -26,8 +29,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <sys/time.h>
+#include <sys/uio.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -89,6 +94,16 @@ __attribute__((destructor)) static void end(void) {
   fprintf(out, "%s %ld %ld\n", program, changes, reads);
   fclose(out);
 }
+
+/* A fault on the n-th operation from now on, in whatever program this is; number 0: none, only counting. */
+void cupola_fault_arm(const char* folder, const char* wanted_kind, long number) {
+  snprintf(under, sizeof under, "%s", folder);
+  snprintf(kind, sizeof kind, "%s", wanted_kind);
+  at = number;
+  changes = reads = happened = 0;
+  active = 1;
+}
+long cupola_fault_reads(void) { return reads; }
 
 static int is_ours(const char* path) { return active == 1 && path && strncmp(path, under, strlen(under)) == 0; }
 static const char* path_of(int descriptor) {
@@ -180,6 +195,14 @@ static int opened(int descriptor, const char* path, int flags, int existed) {
   return descriptor;
 }
 
+static void forget(int descriptor) {
+  if (!path_of(descriptor)) return;
+  pthread_mutex_lock(&mutex);
+  free(descriptor_path[descriptor]);
+  descriptor_path[descriptor] = NULL;
+  pthread_mutex_unlock(&mutex);
+}
+
 /* open(2) of whatever name: a new or emptied file is a change. */
 #define OPEN(name)                                                                \
   int name(const char* path, int flags, ...) {                                    \
@@ -200,14 +223,35 @@ static int opened(int descriptor, const char* path, int flags, int existed) {
 OPEN(open)
 OPEN(open64)
 
+/* Streams: libstdc++'s read and write their descriptor themselves, so that those of C++ are seen; those of C are not. */
+#define FOPEN(name)                                                                                  \
+  FILE* name(const char* path, const char* mode) {                                                   \
+    REAL(FILE*, name, const char*, const char*);                                                     \
+    set_up();                                                                                        \
+    const int ours = is_ours(path);                                                                  \
+    const int existed = ours && access(path, F_OK) == 0;                                             \
+    const int flags = mode[0] == 'r' && !strchr(mode, '+') ? O_RDONLY                                \
+                                                           : O_WRONLY | (mode[0] == 'w' ? O_TRUNC : 0); \
+    if (ours && flags != O_RDONLY && ((flags & O_TRUNC) || !existed)) {                              \
+      const int error = change(path);                                                                \
+      if (error) return errno = error, NULL;                                                         \
+    }                                                                                                \
+    FILE* stream = real_##name(path, mode);                                                          \
+    if (stream) opened(fileno(stream), path, flags, existed);                                        \
+    return stream;                                                                                   \
+  }
+FOPEN(fopen)
+FOPEN(fopen64)
+
+int fclose(FILE* stream) {
+  REAL(int, fclose, FILE*);
+  forget(fileno(stream));
+  return real_fclose(stream);
+}
+
 int close(int descriptor) {
   REAL(int, close, int);
-  if (path_of(descriptor)) {
-    pthread_mutex_lock(&mutex);
-    free(descriptor_path[descriptor]);
-    descriptor_path[descriptor] = NULL;
-    pthread_mutex_unlock(&mutex);
-  }
+  forget(descriptor);
   return real_close(descriptor);
 }
 
@@ -239,6 +283,26 @@ ssize_t pwrite(int descriptor, const void* bytes, size_t count, off_t offset) {
   if (error) return errno = error, -1;
   return real_pwrite(descriptor, bytes, count, offset);
 }
+
+ssize_t writev(int descriptor, const struct iovec* parts, int count) {
+  REAL(ssize_t, writev, int, const struct iovec*, int);
+  size_t whole = 2; /* a short write takes one part of several */
+  const int error = before_write(descriptor, &whole);
+  if (error) return errno = error, -1;
+  return real_writev(descriptor, parts, whole == 1 && count > 1 ? 1 : count);
+}
+
+/* std::filesystem::copy_file */
+#define SENDFILE(name, offset_type)                                            \
+  ssize_t name(int to, int from, offset_type* offset, size_t count) {          \
+    REAL(ssize_t, name, int, int, offset_type*, size_t);                       \
+    int error = read_error(from);                                              \
+    if (!error) error = before_write(to, &count);                              \
+    if (error) return errno = error, -1;                                       \
+    return real_##name(to, from, offset, count);                               \
+  }
+SENDFILE(sendfile, off_t)
+SENDFILE(sendfile64, off64_t)
 
 ssize_t pwrite64(int descriptor, const void* bytes, size_t count, off64_t offset) {
   return pwrite(descriptor, bytes, count, offset);

@@ -3,7 +3,7 @@
 //   node places.mjs CUPOLA SOURCE_DIR WORK_DIR SHIM
 import { spawnSync } from 'node:child_process';
 import { renameSync } from 'node:fs';
-import { aloneFolder, campaignFile, check, compare, copyOfAlone, cpSync, cupola, endStagesOf, existsSync, expectedStatus, finishAndCompare, freshFolder, journal, kill, mkdirSync, path, readFileSync, rmSync, run, stageOf, start, waitFor, workFolder, writeFileSync } from './tools.mjs';
+import { aloneFolder, campaignFile, check, compare, copyOfAlone, cpSync, cupola, endStagesOf, existsSync, expectedStatus, finishAndCompare, freshFolder, journal, mkdirSync, mounted, path, readFileSync, rmSync, run, start, waitFor, workFolder, writeFileSync } from './tools.mjs';
 
 const shim = process.argv[5];
 const seconds = (begin) => `${((Date.now() - begin) / 1000).toFixed(1)} s`;
@@ -12,7 +12,7 @@ const seconds = (begin) => `${((Date.now() - begin) / 1000).toFixed(1)} s`;
 async function begun(campaign, folder, stage = 'tracer') {
   const orchestrator = start(['run', campaign, '--run-dir', folder]);
   const history = path.join(folder, `episodes/001/${stage}/attempt-1/history.jsonl`);
-  await waitFor(120, `the first ${stage} stage`, () => existsSync(history) || !orchestrator.alive());
+  await waitFor(600, `the first ${stage} stage`, () => existsSync(history) || !orchestrator.alive());
   check(orchestrator.alive(), 'the campaign ended before its time', orchestrator.output());
   return orchestrator;
 }
@@ -43,42 +43,27 @@ async function blanksAndMoving() {
   console.log(`blanks and other letters in the path, a second writer, a move and a clock put back: the same end (${seconds(begin)})`);
 }
 
-/// Mounts a small file system; undefined where that is not possible.
-function mounted(size) {
-  const place = path.join(workFolder, 'small');
-  mkdirSync(place, { recursive: true });
-  spawnSync('umount', [place]);
-  const ended = spawnSync('mount', ['-t', 'tmpfs', '-o', `size=${size}`, 'none', place], { encoding: 'utf8' });
-  if (ended.status === 0) return place;
-  console.log(`SKIPPED: full disk and read-only folder: no file system can be mounted here: ${ended.stderr.trim()}`);
-  return undefined;
-}
-
 async function fullAndReadOnly() {
   const begin = Date.now();
-  const place = mounted('64m');
+  const place = mounted('small', '64m');
   if (!place) return;
-  try {
-    const folder = path.join(place, 'run');
-    const orchestrator = await begun(campaignFile, folder, 'dem');
-    // All that is left of the disk is taken.
-    spawnSync('dd', ['if=/dev/zero', `of=${path.join(place, 'ballast')}`, 'bs=4k']);
-    const { status, output } = await orchestrator.ended;
-    check(status === 74, `a full disk: left with ${status}`, output);
-    check(/No space left|full/.test(output), 'that the disk is full is not said', output);
-    rmSync(path.join(place, 'ballast'));
-    await endStagesOf(folder);
-    spawnSync('mount', ['-o', 'remount,ro', place]);
-    const refused = run(['resume', folder]);
-    check(refused.status === 74 && /[Rr]ead-only/.test(refused.output), `a read-only folder: left with ${refused.status}`, refused.output);
-    check(run(['status', folder]).status === 0, 'status of a read-only folder');
-    check(run(['verify', folder]).status === 0, 'verify of a read-only folder');
-    spawnSync('mount', ['-o', 'remount,rw', place]);
-    finishAndCompare(folder);
-    console.log(`a full disk and a read-only folder: said with 74, and the same end after (${seconds(begin)})`);
-  } finally {
-    spawnSync('umount', ['-l', place]);
-  }
+  const folder = path.join(place, 'run');
+  const orchestrator = await begun(campaignFile, folder, 'dem');
+  // All that is left of the disk is taken.
+  spawnSync('dd', ['if=/dev/zero', `of=${path.join(place, 'ballast')}`, 'bs=4k']);
+  const { status, output } = await orchestrator.ended;
+  check(status === 74, `a full disk: left with ${status}`, output);
+  check(/No space left|full/.test(output), 'that the disk is full is not said', output);
+  rmSync(path.join(place, 'ballast'));
+  await endStagesOf(folder);
+  spawnSync('mount', ['-o', 'remount,ro', place]);
+  const refused = run(['resume', folder]);
+  check(refused.status === 74 && /[Rr]ead-only/.test(refused.output), `a read-only folder: left with ${refused.status}`, refused.output);
+  check(run(['status', folder]).status === 0, 'status of a read-only folder');
+  check(run(['verify', folder]).status === 0, 'verify of a read-only folder');
+  spawnSync('mount', ['-o', 'remount,rw', place]);
+  finishAndCompare(folder);
+  console.log(`a full disk and a read-only folder: said with 74, and the same end after (${seconds(begin)})`);
 }
 
 /// State is kept by parcel and tracer, so that another number of ranks can read it; sums are then added up in another order.
@@ -123,6 +108,27 @@ function swappedAndChanged() {
   console.log(`a swapped result and a changed campaign file: named, with what can still be used (${seconds(begin)})`);
 }
 
+/// A damaged result, and the cure that its message names.
+function removedAndAnew() {
+  const begin = Date.now();
+  const folder = copyOfAlone('removed');
+  const last = path.join(folder, 'episodes/002/tracer/attempt-1');
+  writeFileSync(path.join(last, 'result.hdf'), 'nothing');
+  const damaged = run(['resume', folder]);
+  check(damaged.status === 74 && /remove its task folder and run again/.test(damaged.output), 'a damaged result is not refused', damaged.output);
+  rmSync(last, { recursive: true });
+  finishAndCompare(folder);
+  check(run(['verify', folder]).status === 0, 'verify of a run with a stage that began anew');
+  // An earlier one cannot go alone.
+  rmSync(path.join(folder, 'episodes/002/dem/attempt-1'), { recursive: true });
+  const refused = run(['resume', folder]);
+  check(refused.status === 74 && refused.output.includes('episodes/002/tracer'), 'a stage in the middle was done again', refused.output);
+  rmSync(path.join(folder, 'episodes/002/tracer'), { recursive: true });
+  finishAndCompare(folder);
+  rmSync(folder, { recursive: true });
+  console.log(`damaged results: refused, and done anew where they are removed (${seconds(begin)})`);
+}
+
 /// Programs whose libraries have been exchanged under the run.
 function otherVersions() {
   const begin = Date.now();
@@ -155,4 +161,5 @@ await blanksAndMoving();
 await fullAndReadOnly();
 await otherRanks();
 swappedAndChanged();
+removedAndAnew();
 otherVersions();

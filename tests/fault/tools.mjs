@@ -61,6 +61,8 @@ export function start(words, more = {}) {
   const child = spawn(cupola, words, { env: { ...environment, ...more.environment }, stdio: ['ignore', 'pipe', 'pipe'] });
   let output = '';
   let alive = true;
+  const at = words.indexOf('--run-dir');
+  begun.push({ child, folder: at < 0 ? words[1] : words[at + 1] });
   for (const stream of [child.stdout, child.stderr]) stream.on('data', (text) => (output += text));
   const ended = new Promise((resolve) =>
     child.on('exit', (status, signal) => {
@@ -137,9 +139,41 @@ export function finishAndCompare(folder, words = []) {
   compare(folder);
 }
 
+/// File systems that an aborted test left mounted below a folder.
+function unmountBelow(folder) {
+  for (const line of readFileSync('/proc/mounts', 'utf8').split('\n')) {
+    const place = (line.split(' ')[1] ?? '').replace(/\\([0-7]{3})/g, (_, code) => String.fromCharCode(parseInt(code, 8)));
+    if (place === path.join(folder, '.') || place.startsWith(path.join(folder, '/'))) spawnSync('umount', ['-l', place]);
+  }
+}
+
+/// Mounts a small file system until the end of this program; undefined where that is not possible.
+export function mounted(name, size) {
+  const place = freshFolder(name);
+  const ended = spawnSync('mount', ['-t', 'tmpfs', '-o', `size=${size}`, 'none', place], { encoding: 'utf8' });
+  if (ended.status !== 0) {
+    console.log(`SKIPPED: full disk and read-only folder: no file system can be mounted here: ${(ended.stderr ?? '').trim()}`);
+    return undefined;
+  }
+  process.on('exit', () => spawnSync('umount', ['-l', place]));
+  return place;
+}
+
+// Whatever way a test ends, nothing that it began goes on: `cupola` first, then the stages of all folders it was given.
+const begun = [];
+process.on('exit', () => {
+  for (const { child, folder } of begun) {
+    if (child.exitCode === null && child.signalCode === null) kill(child.pid, 'SIGKILL');
+    const stage = folder && stageOf(folder);
+    if (stage) for (const pid of [stage.mpirun, ...stage.ranks]) kill(pid, 'SIGKILL');
+  }
+});
+for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) process.on(signal, () => process.exit(1));
+
 /// A folder of its own for a test, empty.
 export function freshFolder(name) {
   const folder = path.join(workFolder, name);
+  unmountBelow(folder);
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   return folder;

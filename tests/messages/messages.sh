@@ -23,7 +23,7 @@ fail() {
 # What must stay as it is: everything but what a start may add to.
 contents() {
   find . -type f ! -name '*.log' ! -name 'log.*' ! -name lock ! -name failure.json ! -name progress.json ! -path '*/report/*' \
-    ! -name journal.jsonl -exec md5sum {} + | sort -k 2
+    ! -path '*/fields/*' ! -name ro-crate-metadata.json ! -name journal.jsonl -exec md5sum {} + | LC_ALL=C sort
 }
 
 # says NAME COMMAND...: its words and its exit status go to the file; without what depends on the place and the day.
@@ -35,7 +35,7 @@ says() {
   status=$?
   after=$(contents)
   # Files may come, none may change or go.
-  comm -23 <(echo "$before") <(echo "$after") | grep . && fail "$name: changed a file"
+  LC_ALL=C comm -23 <(echo "$before") <(echo "$after") | grep . && fail "$name: changed a file"
   {
     echo "== $name: $status"
     # Of mpirun's own words nothing is kept, of LIGGGHTS and OpenFOAM only our sentence.

@@ -13,10 +13,10 @@ further_than() { [[ $(step) -gt $1 ]]; }
 echo "-- the time limit"
 "$cupola" run "$work/campaign.yaml" --run-dir "$run" >> "$work/out" 2>&1 &
 orchestrator=$!
-wait_for 240 eval '[[ $(events "$run" job-submitted) == 2 ]]' || fail "no second job after the first one's time was up"
+wait_for 3000 eval '[[ $(events "$run" job-submitted) == 2 ]]' || fail "no second job after the first one's time was up"
 [[ $(events "$run" job-ended '"status":75') == 1 ]] || fail "the first job did not end with a checkpoint"
 reached=$(step)
-wait_for 60 further_than "$reached" || fail "the second job does not go on"
+wait_for 300 further_than "$reached" || fail "the second job does not go on"
 second=$(job_of "$run")
 
 echo "-- the node fails and comes back"
@@ -24,9 +24,9 @@ node=$(hostname -s)
 scontrol update "NodeName=$node" State=DOWN Reason=test
 wait_for 30 eval '! job_running "$second"' || fail "the job still runs on a node that is down"
 scontrol update "NodeName=$node" State=RESUME
-wait_for 120 job_running "$second" || fail "the job was not put back"
+wait_for 300 job_running "$second" || fail "the job was not put back"
 reached=$(step)
-wait_for 120 further_than "$reached" || fail "the job that was put back does not go on"
+wait_for 300 further_than "$reached" || fail "the job that was put back does not go on"
 
 echo "-- a request to stop reaches the job"
 kill -TERM "$orchestrator"

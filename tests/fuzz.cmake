@@ -1,0 +1,10 @@
+# Fuzzers (libFuzzer, clang): a build tree of their own, `make fuzz`; tools/fuzz.sh replays the corpus and goes on from it.
+if(CUPOLA_FUZZ)
+  foreach(part campaign fields)
+    add_executable(fuzz_${part} fuzz/fuzz_${part}.cpp)
+    cupola_own_code(fuzz_${part})
+    target_link_libraries(fuzz_${part} PRIVATE cupola_bed_mesh)
+    target_link_options(fuzz_${part} PRIVATE -fsanitize=fuzzer)
+  endforeach()
+  add_custom_target(fuzzers DEPENDS fuzz_campaign fuzz_fields)
+endif()
