@@ -55,6 +55,10 @@ std::optional<bool> exists(hid_t file, const std::string& name) {
     if (there < 0) return std::nullopt;
     if (there == 0) return false;
     if (end == std::string::npos) return true;
+    // Nothing is below a dataset; HDF5 would call that an error too.
+    const Handle object(H5Oopen(file, part.c_str(), H5P_DEFAULT), H5Oclose);
+    if (!object) return std::nullopt;
+    if (H5Iget_type(object.get()) != H5I_GROUP) return false;
   }
 }
 
