@@ -22,8 +22,9 @@ class GasModel {
   /// Solves the flow to a tight tolerance, whatever has changed.
   void solve_flow_tightly(const BedState& bed);
 
-  /// Some warm iterations of the flow, whatever has changed.
-  void improve_flow(const BedState& bed, double tolerance, int most_iterations) {
+  /// Some warm iterations of the flow at a given temperature (K, all cells), whatever has changed.
+  void improve_flow(const BedState& bed, std::vector<double> temperature, double tolerance, int most_iterations) {
+    temperature_ = std::move(temperature);
     solve_flow(bed, tolerance, most_iterations);
   }
 

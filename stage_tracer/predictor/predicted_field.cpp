@@ -41,6 +41,7 @@ PredictedField::PredictedField(FoamCase& foam, const BedMesh& mesh, const Campai
   } else {
     field_ = expected_field(mesh, campaign);
   }
+  for (const double fraction : field_.solids_fraction) packing_.push_back(std::max(fraction, least_solids_fraction));
   for (const Species& species : campaign.species) {
     if (species.softening) lowest_ore_ = std::max(lowest_ore_, species.none_below);
   }
@@ -83,19 +84,17 @@ std::vector<double> PredictedField::share(const std::vector<double>& ore_tempera
   return f;
 }
 
-void PredictedField::follow(const std::vector<double>& ore_temperature) {
-  const std::vector<double> f = share(ore_temperature);
-  field_.face_flux = (*surrogate_)(f);
+void PredictedField::follow(const std::vector<double>& share) {
+  field_.face_flux = (*surrogate_)(share);
   for (std::size_t face = 0; face < measured_.size(); ++face)
     field_.face_flux[face] += measured_[face] - surrogate_then_[face];
   field_.storage.resize(mesh_.cells());
   field_.removal_rate.resize(mesh_.cells());
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
-    field_.storage[c] = f[c] * std::max(field_.solids_fraction[c], least_solids_fraction);
+    field_.storage[c] = share[c] * packing_[c];
     field_.removal_rate[c] = sink_[c] / field_.storage[c];
   }
   field_.stock_faces = stock_faces(mesh_, field_.bed, field_.face_flux, charged_.volume_rate);
-  field_.stagnant = stagnant_cells(mesh_, campaign_, field_);
 }
 
 }  // namespace cupola

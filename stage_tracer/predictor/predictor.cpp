@@ -7,21 +7,26 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/closures/enthalpy_zero.hpp"
 #include "schemas/failure.hpp"
 #include "stage_tracer/bed_composition.hpp"
 #include "stage_tracer/ore_temperature.hpp"
+#include "stage_tracer/predictor/lagged_state.hpp"
 
 namespace cupola {
 namespace {
 
 /// On streamlines that will move again, the temperatures need not be much better than the last move.
 constexpr double inner_over_outer = 0.2;
-constexpr int most_evaluations = 6;
+constexpr int most_evaluations = 10;
 constexpr double flow_tolerance = 1e-4;
-/// How far the granular field follows the zone: all the way, and less each time the change has hardly fallen.
-constexpr double slow_decrease = 0.8;
-constexpr double shorten = 0.7;
-constexpr double least_follow = 0.15;
+/// Of a cell of which lines fill less than this share they know less and less what flows there.
+constexpr double least_known = 0.1;
+/// Lines that pass from one cell to another let temperatures jump, however little they move.  Changes below this share
+/// of rms(T - 293 K) that have not fallen by a quarter over so many iterations are such jumps.
+constexpr double largest_jump = 0.01;
+constexpr std::size_t looked_at = 4;
+constexpr double slow_decrease = 0.75;
 
 /// rms over the bed of what changed, K: the gas weighted with the cells' volumes, species with their shares of the
 /// solids.
@@ -39,10 +44,26 @@ double change_of(const BedMesh& mesh, const std::vector<bool>& bed, const CellCo
     double solids = 0;
     for (const auto& volume : contents.volume) solids += volume[c];
     for (std::size_t s = 0; s < now.solids.size() && solids > 0; ++s) {
+      if (!(before.solids[s][c] > 0)) continue;  // was not there
       add(mesh.cell_volume[c] * contents.volume[s][c] / solids, now.solids[s][c] - before.solids[s][c]);
     }
   }
   return weight > 0 ? std::sqrt(sum / weight) : 0;
+}
+
+/// Whether what still changes is no more than lines that jump between cells.
+bool only_lines_jump(const std::vector<Predictor::Iteration>& done, const BedTemperatures& temperatures) {
+  if (done.size() < 2 * looked_at) return false;
+  const auto least = [&](std::size_t from, std::size_t to) {
+    double result = HUGE_VAL;
+    for (std::size_t i = done.size() - from; i < done.size() - to; ++i) result = std::min(result, done[i].change);
+    return result;
+  };
+  double level = 0;
+  for (const double gas : temperatures.gas) level += (gas - enthalpy_zero) * (gas - enthalpy_zero);
+  level = std::sqrt(level / static_cast<double>(temperatures.gas.size()));
+  return done.back().change < largest_jump * level &&
+         least(looked_at, 0) > slow_decrease * least(2 * looked_at, looked_at);
 }
 
 }  // namespace
@@ -86,6 +107,20 @@ MeltingZone Predictor::melting_zone() const {
   return find_melting_zone(mesh_, campaign_, field(), around.volume, around.temperature);
 }
 
+void Predictor::draw_lines(const std::vector<double>& share, const Settings& settings,
+                           std::optional<Streamlines>& lines, PartClock& clock) {
+  {
+    const auto running = clock.measure("granular flux");
+    granular_.follow(share);
+  }
+  const auto running = clock.measure("streamlines");
+  std::vector<double> persistent_flux;
+  for (const StockFace& face : field().stock_faces)
+    persistent_flux.push_back(face.volume_rate * granular_.charged_share());
+  lines.emplace(mesh_, field().face_flux, field().stock_faces, persistent_flux, granular_.sink(), settings.lines_across,
+                foam_.rank(), foam_.ranks());
+}
+
 Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock) {
   temperatures_ = std::move(temperatures);
   // Where melting is guessed, the species that melts is taken at its guessed temperature.
@@ -93,65 +128,75 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
   for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
     if (campaign_.species[s].softening) ore = temperatures_.solids[s];
   }
-  solids_.contents = guessed_contents(ore);
+  LaggedState state{temperatures_.gas, guessed_contents(ore), granular_.share(ore)};
+  const auto [coldest, hottest] = temperature_range(campaign_);
+  LaggedIteration lagged(mesh_, field().bed, coldest, hottest, granular_.charged_share());
   MeltingZone zone;
   Outcome outcome;
+  std::optional<Streamlines> lines;
   double tolerance = 20;
-  double follow = 1;
+  bool held = false;
   for (int iteration = 0; iteration < settings.most_iterations; ++iteration) {
-    {
-      const auto running = clock.measure("granular flux");
-      granular_.follow(ore);
-    }
+    if (!held) draw_lines(state.share, settings, lines, clock);
     {
       const auto running = clock.measure("flow");
-      compose(solids_.contents);
+      compose(state.contents);
       if (iteration == 0) {
-        gas_.begin(bed_, temperatures_.gas);
+        gas_.begin(bed_, state.gas);
       } else {
-        gas_.improve_flow(bed_, flow_tolerance, 1);
+        gas_.improve_flow(bed_, state.gas, flow_tolerance, 1);
       }
     }
-    std::optional<Streamlines> lines;
-    {
-      const auto running = clock.measure("streamlines");
-      std::vector<double> persistent_flux;
-      for (const StockFace& face : field().stock_faces)
-        persistent_flux.push_back(face.volume_rate * granular_.charged_share());
-      lines.emplace(mesh_, field().face_flux, field().stock_faces, persistent_flux, settings.lines_per_edge,
-                    foam_.rank(), foam_.ranks());
-    }
-    const BedTemperatures before = temperatures_;
     Iteration record;
+    record.lines_moved = !held;
     {
       const auto running = clock.measure("temperatures");
-      const SteadyHeat::Result result = heat_.solve({field(), *lines, bed_volume_, bed_}, gas_, solids_.contents,
-                                                    temperatures_, tolerance, most_evaluations);
+      const SteadyHeat::Result result =
+          heat_.solve({field(), granular_.packing(), granular_.sink(), *lines, bed_volume_, bed_}, gas_, state.contents,
+                      temperatures_, tolerance, most_evaluations);
       solids_ = result.solids;
       record.evaluations = result.evaluations;
+      record.linear_iterations = result.linear_iterations;
       record.correction = result.correction;
     }
     check_raceways();
     zone = melting_zone();
-    // A step cut short makes the change look smaller than what is left.
-    record.change = change_of(mesh_, field().bed, solids_.contents, temperatures_, before) / follow;
-    if (iteration > 0 && record.change > slow_decrease * outcome.iterations.back().change)
-      follow = std::max(least_follow, shorten * follow);
-    for (std::size_t c = 0; c < ore.size(); ++c) ore[c] += follow * (zone.ore_temperature[c] - ore[c]);
+    record.change =
+        change_of(mesh_, field().bed, solids_.contents, temperatures_, {state.gas, state.contents.temperature});
     record.zone_height = can_melt(campaign_) ? zone.melted.height_mean : std::numeric_limits<double>::quiet_NaN();
     outcome.iterations.push_back(record);
     if (foam_.rank() == 0) {
-      spdlog::info("iteration {}: change {:.3g} K, {} evaluations (last correction {:.2g} K), zone at {:.3f} m",
-                   iteration + 1, record.change, record.evaluations, record.correction, record.zone_height);
+      spdlog::info(
+          "iteration {}: change {:.3g} K, {} evaluations with {} linear iterations (last correction {:.2g} K), zone at "
+          "{:.3f} m{}",
+          iteration + 1, record.change, record.evaluations, record.linear_iterations, record.correction,
+          record.zone_height, held ? ", lines held" : "");
     }
     if (record.change < settings.tolerance && record.correction < settings.tolerance) {
       outcome.converged = true;
       break;
     }
     tolerance = std::clamp(inner_over_outer * record.change, 0.2 * settings.tolerance, 20.0);
+    lagged.advance(state, {temperatures_.gas, solids_.contents, held ? state.share : implied_share(zone)});
+    if (!held && only_lines_jump(outcome.iterations, temperatures_)) {
+      held = true;
+      outcome.line_noise = record.change;
+      lagged.begin_anew();
+    }
   }
+  granular_.mark_stagnant();
   look_for_warnings(zone, outcome);
   return outcome;
+}
+
+std::vector<double> Predictor::implied_share(const MeltingZone& zone) const {
+  std::vector<double> share = granular_.share(can_melt(campaign_) ? zone.ore_temperature : std::vector<double>{});
+  for (std::size_t c = 0; c < share.size(); ++c) {
+    if (!field().bed[c]) continue;
+    const double known = std::min(1.0, solids_.passed[c] / (least_known * mesh_.cell_volume[c]));
+    share[c] += known * (solids_.share[c] - share[c]);
+  }
+  return share;
 }
 
 void Predictor::check_raceways() const {
@@ -160,7 +205,7 @@ void Predictor::check_raceways() const {
     double wanted = 0;
     double removed = 0;
     for (const std::int64_t cell : raceway_cells(mesh_, campaign_.raceways[r])) {
-      wanted += field().removal_rate[cell] * field().storage[cell] * mesh_.cell_volume[cell];
+      wanted += granular_.sink()[cell] * mesh_.cell_volume[cell];
       removed += solids_.removed[cell];
     }
     if (removed < 0.5 * wanted) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,20 +28,25 @@ class Predictor {
   struct Settings {
     double tolerance = 0.5;  ///< K, rms change of an iteration
     int most_iterations = 40;
-    int lines_per_edge = 2;  ///< streamlines along each edge of a stock face
+    std::array<int, 2> lines_across{4, 2};  ///< streamlines along each stock face in x and in y
   };
   /// One outer iteration, for the report.
   struct Iteration {
     double change = 0;      ///< K, rms of gas and solids
     double correction = 0;  ///< K, left in the temperatures on fixed streamlines
     int evaluations = 0;
+    int linear_iterations = 0;
     double zone_height = 0;  ///< m, mean; NaN without one
+    bool lines_moved = true;
   };
   struct Outcome {
     bool converged = false;
     std::vector<Iteration> iterations;
     std::vector<std::string> warnings;
     double reached = 0;  ///< share of the bed's volume that streamlines reach
+    /// K, by which temperatures still jumped with the lines' passing from cell to cell when the lines were held; 0
+    /// where they came to rest by themselves.
+    double line_noise = 0;
   };
   /// @param temperatures where to begin
   Outcome solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock);
@@ -54,9 +60,13 @@ class Predictor {
 
  private:
   void compose(const CellContents& contents);
+  void draw_lines(const std::vector<double>& share, const Settings& settings, std::optional<Streamlines>& lines,
+                  PartClock& clock);
   [[nodiscard]] CellContents guessed_contents(const std::vector<double>& ore_temperature) const;
   /// Of the solids as they stand; without softening an ore as cold as the charge, and no zone.
   [[nodiscard]] MeltingZone melting_zone() const;
+  /// The persistent species' share of the solids flux that the solids on the lines stand for.
+  [[nodiscard]] std::vector<double> implied_share(const MeltingZone& zone) const;
   void check_raceways() const;
   void look_for_warnings(const MeltingZone& zone, Outcome& outcome) const;
 

@@ -1,6 +1,7 @@
 #include "stage_tracer/predictor/solids_sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "physics/closures/solid_enthalpy.hpp"
@@ -19,7 +20,7 @@ constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
 class Sums {
  public:
   Sums(std::size_t species, std::size_t cells)
-      : species_(species), cells_(cells), values((9 * species + 1) * cells + Tally::columns, 0.0) {}
+      : species_(species), cells_(cells), values((9 * species + 3) * cells + Tally::columns, 0.0) {}
 
   double& volume(std::size_t s, std::size_t c) { return values[s * cells_ + c]; }
   double& heat(std::size_t s, std::size_t c) { return values[(species_ + s) * cells_ + c]; }
@@ -27,7 +28,9 @@ class Sums {
     return values[(2 * species_ + 7 * s) * cells_ + 7 * c + side];
   }
   double& removed(std::size_t c) { return values[9 * species_ * cells_ + c]; }
-  double* tally() { return &values[(9 * species_ + 1) * cells_]; }
+  double& passed(std::size_t c) { return values[(9 * species_ + 1) * cells_ + c]; }
+  double& share(std::size_t c) { return values[(9 * species_ + 2) * cells_ + c]; }
+  double* tally() { return &values[(9 * species_ + 3) * cells_]; }
 
  private:
   std::size_t species_;
@@ -64,80 +67,153 @@ SolidsSweep::SolidsSweep(const BedMesh& mesh, const Campaign& campaign, std::vec
   }
 }
 
-SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vector<double>& storage,
-                                      const std::vector<double>& removal_rate, const SolidsSurroundings& surroundings,
+/// One line on its way down.
+class SolidsSweep::Walk {
+ public:
+  Walk(const SolidsSweep& sweep, const SolidsSurroundings& surroundings, Sums& sums, Tally& tally)
+      : sweep_(sweep),
+        species_(sweep.campaign_.species),
+        around_(surroundings),
+        sums_(sums),
+        tally_(tally),
+        flux_(species_.size()),
+        temperature_(species_.size()),
+        melts_(species_.size()) {}
+
+  /// @param persistent m3/s
+  void enter(double persistent) {
+    const double charged_at = sweep_.campaign_.charging.temperature;
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      flux_[s] = persistent * sweep_.share_over_persistent_[s];
+      temperature_[s] = charged_at;
+      tally_.enter(flux_[s] * species_[s].density, heat(s, flux_[s]));
+    }
+  }
+
+  [[nodiscard]] bool empty() const {
+    return std::all_of(flux_.begin(), flux_.end(), [](double flux) { return flux <= 0; });
+  }
+
+  /// Enters a cell through a side (`no_cell`: is still in the same).
+  void pass_into(std::size_t cell, std::size_t side) {
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      if (!(flux_[s] > 0)) continue;
+      if (species_[s].softening && sweep_.mesh_.cell_centre[cell][2] < species_[s].none_below) {
+        leave(s, Cause::unmelted);
+      } else if (side != no_cell) {
+        sums_.inflow(s, cell, side) += flux_[s] * sweep_.capacity_[s];
+      }
+    }
+  }
+
+  /// Stays in a cell for so long at a storage of 1; each melting that falls into the stay ends a part of it.
+  void stay(std::size_t cell, double time_left, double packing, double sink) {
+    while (time_left > 0 && !empty()) {
+      const double share = persistent_share();
+      const double storage = share * packing;
+      const double removal = sink / storage;
+      double time = time_left * storage;
+      for (std::size_t s = 0; s < species_.size(); ++s) {
+        melts_[s] = HUGE_VAL;
+        if (flux_[s] > 0 && species_[s].softening)
+          melts_[s] = course(s, cell, removal).time_of(species_[s].softening->melted);
+      }
+      const double first = *std::min_element(melts_.begin(), melts_.end());
+      const bool melting = first <= time;
+      if (melting) time = first;
+      const double part = melting ? time / storage : time_left;
+      double persistent = 0;
+      for (std::size_t s = 0; s < species_.size(); ++s) {
+        if (sweep_.persistent_[s]) persistent += flux_[s];
+      }
+      const double volume = persistent * StayOfSolids::survived(sink, part);
+      sums_.passed(cell) += volume;
+      sums_.share(cell) += volume * share;
+      for (std::size_t s = 0; s < species_.size(); ++s) {
+        if (!(flux_[s] > 0)) continue;
+        exchange(s, cell, time, removal);
+        if (melting && melts_[s] <= first) leave(s, Cause::melted);
+      }
+      time_left -= part;
+    }
+  }
+
+  void end() {
+    for (std::size_t s = 0; s < species_.size(); ++s) leave(s, Cause::lost);
+  }
+
+ private:
+  [[nodiscard]] double heat(std::size_t s, double volume) const {
+    return sweep_.capacity_[s] * volume * (temperature_[s] - enthalpy_zero);
+  }
+  [[nodiscard]] StayOfSolids course(std::size_t s, std::size_t cell, double removal) const {
+    return {temperature_[s], around_.rate[s][cell], around_.felt[s][cell], around_.source[s][cell], removal};
+  }
+  void leave(std::size_t s, Cause cause) {
+    if (flux_[s] > 0) tally_.leave(cause, flux_[s] * species_[s].density, heat(s, flux_[s]));
+    flux_[s] = 0;
+  }
+
+  /// Of the solids flux that is left of the line; all species are used up at the same rate.
+  [[nodiscard]] double persistent_share() const {
+    double all = 0;
+    double persistent = 0;
+    for (std::size_t s = 0; s < species_.size(); ++s) {
+      if (flux_[s] > 0) all += sweep_.share_over_persistent_[s];
+      if (sweep_.persistent_[s]) persistent += sweep_.share_over_persistent_[s];
+    }
+    return persistent / all;
+  }
+
+  void exchange(std::size_t s, std::size_t cell, double time, double removal) {
+    const StayOfSolids part = course(s, cell, removal);
+    const double volume = flux_[s] * part.volume_time(time);
+    const double excess = flux_[s] * part.excess_time(time);
+    sums_.volume(s, cell) += volume;
+    sums_.heat(s, cell) += volume * temperature_[s] + excess;
+    const double used_up = std::min(flux_[s], removal * volume);
+    if (used_up > 0) {
+      tally_.leave(Cause::raceway, used_up * species_[s].density,
+                   heat(s, used_up) + removal * excess * sweep_.capacity_[s]);
+      if (sweep_.persistent_[s]) sums_.removed(cell) += used_up;
+    }
+    const double entered = flux_[s];
+    flux_[s] -= used_up;
+    temperature_[s] = part.temperature(time);
+    if (flux_[s] <= least_survival * entered) leave(s, Cause::raceway);
+  }
+
+  const SolidsSweep& sweep_;
+  const std::vector<Species>& species_;
+  const SolidsSurroundings& around_;
+  Sums& sums_;
+  Tally& tally_;
+  std::vector<double> flux_;         ///< m3/s of each species; 0: no longer there
+  std::vector<double> temperature_;  ///< K
+  std::vector<double> melts_;        ///< s until each melts in this part of the stay
+};
+
+SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vector<double>& packing,
+                                      const std::vector<double>& sink, const SolidsSurroundings& surroundings,
                                       const SumOverRanks& sum) const {
   const std::size_t cells = mesh_.cells();
   const std::size_t species = campaign_.species.size();
   Sums sums(species, cells);
   Tally tally;
-  const double charged_at = campaign_.charging.temperature;
-  std::vector<double> temperature(species);
-  std::vector<bool> present(species);
+  Walk walk(*this, surroundings, sums, tally);
   for (const Streamlines::Line& line : lines.lines()) {
-    std::vector<double> flux(species);
-    for (std::size_t s = 0; s < species; ++s) {
-      flux[s] = line.flux * share_over_persistent_[s];
-      present[s] = flux[s] > 0;
-      temperature[s] = charged_at;
-      tally.enter(flux[s] * campaign_.species[s].density, capacity_[s] * flux[s] * (charged_at - enthalpy_zero));
-    }
+    walk.enter(line.flux);
     std::size_t before = no_cell;
-    for (std::size_t i = line.first; i < line.end; ++i) {
+    for (std::size_t i = line.first; i < line.end && !walk.empty(); ++i) {
       const Streamlines::Stay& stay = lines.stays()[i];
       const auto c = static_cast<std::size_t>(stay.cell);
-      const double removal = removal_rate[c];
-      double time = stay.time * storage[c];
-      // A line that ends at rest without being used up cannot fill more than its cell.
-      if (!(removal > 0)) time = std::min(time, storage[c] * mesh_.cell_volume[c] / line.flux);
-      const std::size_t side = before == c         ? no_cell
-                               : before == no_cell ? from_outside
-                                                   : side_between(mesh_, c, before);
+      walk.pass_into(c, before == c ? no_cell : before == no_cell ? from_outside : side_between(mesh_, c, before));
       before = c;
-      bool any = false;
-      for (std::size_t s = 0; s < species; ++s) {
-        if (!present[s]) continue;
-        const Species& of = campaign_.species[s];
-        const double capacity = capacity_[s];
-        const auto heat = [&](double volume) { return capacity * volume * (temperature[s] - enthalpy_zero); };
-        if (of.softening && mesh_.cell_centre[c][2] < of.none_below) {
-          tally.leave(Cause::unmelted, flux[s] * of.density, heat(flux[s]));
-          present[s] = false;
-          continue;
-        }
-        if (side != no_cell) sums.inflow(s, c, side) += flux[s] * capacity;
-        const StayOfSolids course(temperature[s], surroundings.rate[s][c], surroundings.felt[s][c],
-                                  surroundings.source[s][c], removal);
-        const double melts = of.softening ? course.time_of(of.softening->melted) : HUGE_VAL;
-        const bool melted = melts <= time;
-        const double lasts = melted ? melts : time;
-        const double volume = flux[s] * course.volume_time(lasts);
-        const double excess = flux[s] * course.excess_time(lasts);
-        sums.volume(s, c) += volume;
-        sums.heat(s, c) += volume * temperature[s] + excess;
-        const double used_up = std::min(flux[s], removal * volume);
-        if (used_up > 0) {
-          tally.leave(Cause::raceway, used_up * of.density, heat(used_up) + removal * excess * capacity);
-          if (persistent_[s]) sums.removed(c) += used_up;
-        }
-        const double entered = flux[s];
-        flux[s] -= used_up;
-        temperature[s] = course.temperature(lasts);
-        if (melted) tally.leave(Cause::melted, flux[s] * of.density, heat(flux[s]));
-        if (flux[s] <= least_survival * entered && !melted) {
-          if (flux[s] > 0) tally.leave(Cause::raceway, flux[s] * of.density, heat(flux[s]));
-          flux[s] = 0;
-        }
-        present[s] = !melted && flux[s] > 0;
-        any = any || present[s];
-      }
-      if (!any) break;
+      // A line that ends at rest without being used up cannot fill more than its cell.
+      const double time = sink[c] > 0 ? stay.time : std::min(stay.time, mesh_.cell_volume[c] / line.flux);
+      walk.stay(c, time, packing[c], sink[c]);
     }
-    for (std::size_t s = 0; s < species; ++s) {
-      if (present[s])
-        tally.leave(Cause::lost, flux[s] * campaign_.species[s].density,
-                    capacity_[s] * flux[s] * (temperature[s] - enthalpy_zero));
-    }
+    walk.end();
   }
   const std::vector<double> row = tally.row();
   std::copy(row.begin(), row.end(), sums.tally());
@@ -155,7 +231,11 @@ SolidsOnLines SolidsSweep::operator()(const Streamlines& lines, const std::vecto
       for (std::size_t side = 0; side < 7; ++side) result.inflow[s][7 * c + side] = sums.inflow(s, c, side);
     }
   }
-  for (std::size_t c = 0; c < cells; ++c) result.removed.push_back(sums.removed(c));
+  for (std::size_t c = 0; c < cells; ++c) {
+    result.removed.push_back(sums.removed(c));
+    result.passed.push_back(sums.passed(c));
+    result.share.push_back(sums.passed(c) > 0 ? sums.share(c) / sums.passed(c) : 0);
+  }
   result.rates = Tally::from_row({sums.tally(), sums.tally() + Tally::columns});
   return result;
 }

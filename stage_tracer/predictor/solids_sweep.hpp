@@ -25,14 +25,20 @@ struct SolidsOnLines {
   BySpecies inflow;
   /// Flow of the persistent species used up in each cell, m3/s.
   std::vector<double> removed;
+  /// Volume of the lines' persistent flux at a storage of 1 that passed each cell, m3: the cell's own where lines fill
+  /// it.
+  std::vector<double> passed;
+  /// Mean over that of the persistent species' share of the solids flux, f; 0 where nothing passed.
+  std::vector<double> share;
 };
 
 /// Carries all species down the streamlines and integrates their temperatures exactly: in a stay the rate, the felt gas
 /// temperature and the source are constant, so that T is an exponential, and its mean over those that survive the
 /// raceways' removal is known in closed form.  Each line carries the species in the proportions of the charge; a
 /// melting species ends within the stay in which it reaches its melting temperature, or where the line enters a cell
-/// whose centre is below its `none_below`.  What the gas and the sources give is what the enthalpy flows gain, to
-/// round-off.
+/// whose centre is below its `none_below`.  From there on the line's storage f alpha_p is that of what is left of it:
+/// f follows the melting along the line itself, so that nothing jumps when the zone passes from one cell to the next.
+/// What the gas and the sources give is what the enthalpy flows gain, to round-off.
 class SolidsSweep {
  public:
   /// Keeps references. @param share of each species in the charge's volume
@@ -42,12 +48,15 @@ class SolidsSweep {
   /// melts (or to the hottest blast), latent heat included, so that what a melted grain has taken up is right.
   [[nodiscard]] const std::vector<double>& capacity() const { return capacity_; }
 
-  /// @param storage f alpha_p, all cells   @param removal_rate 1/s, all cells (raceways)
-  [[nodiscard]] SolidsOnLines operator()(const Streamlines& lines, const std::vector<double>& storage,
-                                         const std::vector<double>& removal_rate,
-                                         const SolidsSurroundings& surroundings, const SumOverRanks& sum) const;
+  /// @param packing solids fraction, all cells, not 0   @param sink of the persistent species, 1/s, all cells
+  /// (raceways)
+  [[nodiscard]] SolidsOnLines operator()(const Streamlines& lines, const std::vector<double>& packing,
+                                         const std::vector<double>& sink, const SolidsSurroundings& surroundings,
+                                         const SumOverRanks& sum) const;
 
  private:
+  class Walk;
+
   const BedMesh& mesh_;
   const Campaign& campaign_;
   std::vector<double> share_over_persistent_;

@@ -9,12 +9,12 @@
 namespace cupola {
 namespace {
 
-/// Cells that hold less of the persistent species than this share of what fits count as not reached by any streamline.
+/// Cells of which lines fill less than this share count as not reached, the more so the less they fill.
 constexpr double least_covered = 0.1;
 constexpr std::size_t anderson_depth = 10;
 /// The upwind equations are a guide only: more accuracy would not be used.
 constexpr double linear_reduction = 0.03;
-constexpr int linear_iterations = 25;
+constexpr int linear_iterations = 120;
 
 std::vector<double> flat(const BedTemperatures& t) {
   const std::size_t fields = 1 + t.solids.size();
@@ -46,6 +46,17 @@ void unfold(const std::vector<double>& x, BedTemperatures& t) {
 
 }  // namespace
 
+std::array<double, 2> temperature_range(const Campaign& campaign) {
+  double coldest = campaign.charging.temperature;
+  double hottest = coldest;
+  if (campaign.scene.heat_loss) coldest = std::min(coldest, campaign.scene.heat_loss->ambient);
+  for (const Inlet& inlet : campaign.scene.gas->inlets) {
+    coldest = std::min(coldest, inlet.total_temperature);
+    hottest = std::max(hottest, inlet.total_temperature);
+  }
+  return {coldest, hottest};
+}
+
 /// The equations of one call of `solve`.
 class SteadyHeat::Evaluation {
  public:
@@ -66,22 +77,19 @@ class SteadyHeat::Evaluation {
     for (std::size_t s = 0; s < rate_.size(); ++s) {
       for (double& rate : rate_[s]) rate *= 6 / (campaign_.species[s].diameter * sweep_.capacity()[s]);
     }
-    coldest = hottest = campaign_.charging.temperature;
-    if (campaign_.scene.heat_loss) coldest = std::min(coldest, campaign_.scene.heat_loss->ambient);
-    for (const Inlet& inlet : campaign_.scene.gas->inlets) {
-      coldest = std::min(coldest, inlet.total_temperature);
-      hottest = std::max(hottest, inlet.total_temperature);
-    }
+    const auto range = temperature_range(campaign_);
+    coldest = range[0];
+    hottest = range[1];
   }
 
-  double coldest;  ///< K: no temperature can leave the range of what comes in
+  double coldest;  ///< K
   double hottest;
 
   /// @return what the temperatures would be in those of `from`
   BedTemperatures evaluate(const BedTemperatures& from) {
     SolidsSurroundings around{rate_, exchange_.felt_temperature(from.gas), conducted(from.solids)};
     keep_in_range(around);
-    solids_ = sweep_(bed_.lines, bed_.field.storage, bed_.field.removal_rate, around, sum_);
+    solids_ = sweep_(bed_.lines, bed_.packing, bed_.sink, around, sum_);
     rest_where_nothing_passes(around);
     contents_ = solids_.contents;
     gas_.solve_energy(bed_.state, exchange_.solids(contents_));
@@ -207,12 +215,12 @@ class SteadyHeat::Evaluation {
     CellContents& contents = solids_.contents;
     for (std::size_t c = 0; c < mesh_.cells(); ++c) {
       if (!bed_.field.bed[c]) continue;
-      double held = 0;
-      for (std::size_t s = 0; s < filling_.size(); ++s) held += filling_[s] > 0 ? contents.volume[s][c] : 0;
-      if (held >= least_covered * bed_.field.storage[c] * mesh_.cell_volume[c]) continue;
+      // The less a cell is reached the more of it rests, so that nothing jumps when a line comes or goes.
+      const double missing = 1 - solids_.passed[c] / (least_covered * mesh_.cell_volume[c]);
+      if (missing <= 0) continue;
       for (std::size_t s = 0; s < filling_.size(); ++s) {
         if (!(filling_[s] > 0)) continue;
-        const double volume = filling_[s] * bed_.field.solids_fraction[c] * mesh_.cell_volume[c];
+        const double volume = missing * filling_[s] * bed_.field.solids_fraction[c] * mesh_.cell_volume[c];
         const double balance = around.felt[s][c] + around.source[s][c] / around.rate[s][c];
         double& mean = contents.temperature[s][c];
         mean = (mean * contents.volume[s][c] + balance * volume) / (contents.volume[s][c] + volume);
@@ -316,7 +324,9 @@ SteadyHeat::Result SteadyHeat::solve(const Bed& bed, GasModel& gas, CellContents
     std::vector<double> difference(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) difference[i] = there[i] - x[i];
     std::vector<double> correction;
-    matrix->solve(equations.right_side(difference), correction, linear_reduction, linear_iterations);
+    const auto solution =
+        matrix->solve(equations.right_side(difference), correction, linear_reduction, linear_iterations);
+    result.linear_iterations += solution.iterations;
     result.correction = rms(correction, equations.weights());
     x = acceleration->next(x, correction);
     for (double& value : x) value = std::clamp(value, equations.coldest, equations.hottest);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "stage_tracer/conduction.hpp"
@@ -14,6 +15,9 @@ struct BedTemperatures {
   std::vector<double> gas;
   BySpecies solids;
 };
+
+/// Lowest and highest temperature of what enters a bed, K: no temperature can leave that range.
+std::array<double, 2> temperature_range(const Campaign& campaign);
 
 /// The steady heat balance of gas and solids on given streamlines, with given flow, composition and rates of exchange.
 ///
@@ -33,6 +37,8 @@ class SteadyHeat {
   /// What is held while the temperatures are sought.
   struct Bed {
     const GranularField& field;
+    const std::vector<double>& packing;  ///< solids fraction, all cells, not 0
+    const std::vector<double>& sink;     ///< of the persistent species, 1/s, all cells
     const Streamlines& lines;
     const BySpecies& volume;  ///< m3, [species][cell], of the composition
     const BedState& state;
@@ -40,7 +46,8 @@ class SteadyHeat {
   struct Result {
     SolidsOnLines solids;
     int evaluations = 0;
-    double correction = 0;  ///< K, rms of the last correction: about the error that is left
+    int linear_iterations = 0;  ///< of all evaluations
+    double correction = 0;      ///< K, rms of the last correction: about the error that is left
   };
   /// Improves the temperatures until the corrections are below `tolerance` (K, rms), or so often.
   Result solve(const Bed& bed, GasModel& gas, CellContents contents, BedTemperatures& temperatures, double tolerance,

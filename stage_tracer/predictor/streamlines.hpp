@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,9 +27,11 @@ class Streamlines {
   /// Follows lines from points spread evenly over each stock face's reference coordinates, in which the flux of a face
   /// is even, so that all lines of a face carry the same.  Of a deterministic list each rank takes every `ranks`-th.
   /// @param persistent_flux m3/s through each of the stock faces
-  /// @param lines_per_edge  lines along each edge of a stock face
+  /// @param sink            of the persistent species, 1/s, all cells: a line ends where it is used up
+  /// @param lines_across    lines along each stock face in x and in y
   Streamlines(const BedMesh& mesh, const std::vector<double>& face_flux, const std::vector<StockFace>& stock_faces,
-              const std::vector<double>& persistent_flux, int lines_per_edge, int rank, int ranks);
+              const std::vector<double>& persistent_flux, const std::vector<double>& sink,
+              std::array<int, 2> lines_across, int rank, int ranks);
 
   [[nodiscard]] const std::vector<Line>& lines() const { return lines_; }
   [[nodiscard]] const std::vector<Stay>& stays() const { return stays_; }

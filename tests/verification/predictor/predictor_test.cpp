@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <random>
 
 #include "physics/closures/convection.hpp"
 #include "physics/closures/gas_properties.hpp"
@@ -11,6 +12,7 @@
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
+#include "tests/support/stated_bed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cupola {
@@ -83,8 +85,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 /// Predicts a campaign in a folder. @param guess result of another prediction on the same mesh; empty: none
+/// @param motion a DEM result on that mesh; empty: none
 /// @return exit status of the program
-int predict(const std::filesystem::path& folder, const std::string& text, const std::filesystem::path& guess = {}) {
+int predict(const std::filesystem::path& folder, const std::string& text, const std::filesystem::path& guess = {},
+            const std::filesystem::path& motion = {}) {
   const ReadCampaign read = read_campaign_text(text, "campaign.yaml");
   if (!read.ok()) throw std::runtime_error(to_text(read.errors));
   Task task;
@@ -93,6 +97,7 @@ int predict(const std::filesystem::path& folder, const std::string& text, const 
   task.campaign_hash = hash_text("one furnace");  // the mesh carries it
   task.program_version = "test";
   if (!guess.empty()) task.inputs["solids_temperature"] = {guess, hash_file(guess)};
+  if (!motion.empty()) task.inputs["granular"] = {motion, hash_file(motion)};
   std::filesystem::create_directories(folder);
   write_task(folder, task);
   const std::string program = CUPOLA_TRACER;
@@ -160,6 +165,49 @@ TEST(Predictor, TheFirstGuessDoesNotMatter) {
   EXPECT_GT(hot["mean_solid_temperature"].get<double>(), mean + 20) << "more blast, hotter bed";
   EXPECT_LT(plan["ledger"]["energy"]["residual"].get<double>(), 1e-3);
   EXPECT_LT(plan["ledger"]["mass"]["residual"].get<double>(), 1e-9);
+}
+
+/// The DEM result that has a prediction's own motion, with noise on each component of the velocity (rms over the
+/// speed).
+void write_motion(const std::filesystem::path& file, const std::filesystem::path& prediction, double noise) {
+  Task task;
+  task.campaign = read_campaign_text(shaft, "").campaign;
+  task.campaign_hash = hash_text("one furnace");
+  const BedMesh mesh = BedMesh::read(prediction / "foam" / "mesh.hdf");
+  const FieldFile result(prediction / "result.hdf", "tracer-result");
+  cupola::testing::StatedBed bed = testing::bed_at_rest(mesh, task.campaign, expected_packing);
+  bed.solids_fraction = result.cell_data("solids_fraction");
+  const auto velocity = result.cell_data("solids_velocity", 3);
+  std::mt19937 generator(1);
+  const auto evenly = [&] { return std::sqrt(12.0) * (static_cast<double>(generator()) / 4294967296.0 - 0.5); };
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    const double* u = &velocity[3 * c];
+    const double speed = std::hypot(u[0], u[1], u[2]);
+    for (std::size_t k = 0; k < 3; ++k) bed.solids_velocity[c][k] = u[k] + noise * speed * evenly();
+  }
+  bed.coke_removal_rate = charge_of(task.campaign, expected_packing).mass_rate[0];
+  bed.removal_by_raceway = {bed.coke_removal_rate / 2, bed.coke_removal_rate / 2};
+  testing::write_stated_bed(file, mesh, task, bed);
+}
+
+TEST(Predictor, NoiseOfTheMotionIsSurvived) {
+  const TemporaryFolder folder;
+  const auto clean = folder.path() / "clean";
+  ASSERT_EQ(predict(clean, shaft), 0);
+  const double mean = summary(clean)["mean_solid_temperature"];
+  for (const double noise : {0.0, 0.05, 0.2, 0.5}) {
+    const auto here = folder.path() / std::to_string(noise);
+    const auto motion = folder.path() / ("motion" + std::to_string(noise));
+    write_motion(motion, clean, noise);
+    ASSERT_EQ(predict(here, shaft, clean / "result.hdf", motion), 0)
+        << read_failure(here).value_or(nlohmann::json()).dump();
+    const auto result = summary(here);
+    EXPECT_TRUE(result["prediction"]["converged"].get<bool>()) << noise;
+    EXPECT_TRUE(result["prediction"]["with_dem"].get<bool>());
+    EXPECT_LT(result["ledger"]["mass"]["residual"].get<double>(), 1e-9) << noise;
+    EXPECT_LT(result["ledger"]["energy"]["residual"].get<double>(), 1e-3) << noise;
+    EXPECT_NEAR(result["mean_solid_temperature"].get<double>(), mean, 0.05 * mean) << noise;
+  }
 }
 
 struct Hard {
