@@ -49,7 +49,7 @@ bench-reference: build
 sanitize: setup
 	@echo "== sanitizers"
 	@[ -f build-sanitize/build.ninja ] || cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
-	  -DCUPOLA_SANITIZE=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
+	  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 -DCUPOLA_SANITIZE=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
 	cmake --build build-sanitize -j $(JOBS) --target sanitized
 	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long
 

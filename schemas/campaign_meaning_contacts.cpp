@@ -31,10 +31,9 @@ void check_contacts(Context& context) {
     }
   }
   const auto& root = context.document.root;
-  if (!context.named || context.names.empty() || !context.has("contacts.pairs") ||
-      !root["contacts"]["pairs"].is_object()) {
-    return;
-  }
+  // Not `context.has`: a misplaced key may be called `contacts.pairs`.
+  const nlohmann::ordered_json::json_pointer pairs("/contacts/pairs");
+  if (!context.named || context.names.empty() || !root.contains(pairs) || !root.at(pairs).is_object()) return;
   std::set<std::string> wanted;
   std::vector<std::string> candidates;  // both orders
   auto partners = context.names;
@@ -54,7 +53,7 @@ void check_contacts(Context& context) {
 
   std::map<std::string, std::string> given;  // as it is spelt, by the pair in order
   std::set<std::string> meant;
-  for (const auto& [key, value] : root["contacts"]["pairs"].items()) {
+  for (const auto& [key, value] : root.at(pairs).items()) {
     const auto pair = in_order(key);
     const auto path = path_of("contacts.pairs", key);
     if (!wanted.contains(pair)) {

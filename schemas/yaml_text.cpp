@@ -27,7 +27,7 @@ std::string flow(const Json& value) {
   return text;
 }
 
-bool is_plain(const std::string& key) {
+bool needs_no_quotes(const std::string& key) {
   return !key.empty() && std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
 }
 
@@ -47,7 +47,7 @@ void write(std::string& text, const Json& value, int indent) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
   if (value.is_object()) {
     for (const auto& [key, member] : value.items()) {
-      text += margin + (is_plain(key) ? key : Json(key).dump()) + ":";
+      text += margin + (needs_no_quotes(key) ? key : Json(key).dump()) + ":";
       write_after(text, member, indent + 2);
     }
   } else {

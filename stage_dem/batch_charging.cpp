@@ -18,8 +18,6 @@ namespace cupola {
 namespace {
 
 constexpr double loose_packing = 0.55;
-/// Fraction random insertion fills quickly.
-constexpr double loose_fraction = 0.22;
 
 void check_batches_fit(const Campaign& campaign) {
   const double stock = campaign.charging.stock_line;
@@ -89,7 +87,7 @@ std::vector<Parcel> BatchCharging::pour(const std::vector<Parcel>& parcels, doub
   const auto [inner, outer] = running_ring();
   const double width = std::min(outer, campaign_.half_width(campaign_.charging.stock_line)) - inner;
   const double area = 2 * width * campaign_.scene.geometry.depth;
-  const double to = std::min(campaign_.hopper_top(), from + 0.2 + volume / (loose_fraction * area));
+  const double to = std::min(campaign_.hopper_top(), from + 0.2 + volume / (Pouring::loose_fraction * area));
   RandomNumbers random(seed, RandomNumbers::Use::charging, static_cast<std::uint64_t>(next_id));
   while (still_owed() > 0) {
     // A mixed batch is poured mixed: the species with the largest number still to come first.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/plan/charge.hpp"
 #include "physics/plan/mesh_counts.hpp"
 #include "stage_dem/bed_surface.hpp"
 #include "stage_dem/parcels.hpp"
@@ -11,10 +12,6 @@
 namespace cupola {
 namespace {
 
-/// What a poured bed packs to, to reckon how much a layer takes; the measured surface corrects it layer by layer.
-constexpr double expected_packing = 0.56;
-/// Fraction random insertion fills quickly.
-constexpr double loose_fraction = 0.22;
 /// Pause between portions, s: the fall of most of a portion.
 constexpr double pause = 0.3;
 
@@ -81,7 +78,8 @@ std::vector<Parcel> BedBuilder::pour(const std::vector<Parcel>& parcels, const O
   const double from = highest_top(campaign_, parcels);
   const double room = campaign_.hopper_top() - from;
   const double to =
-      from + std::min(room, 0.2 + volume_left_ / (loose_fraction * slot_volume(campaign_, base_, base_ + 0.1) / 0.1));
+      from +
+      std::min(room, 0.2 + volume_left_ / (Pouring::loose_fraction * slot_volume(campaign_, base_, base_ + 0.1) / 0.1));
   RandomNumbers random(seed, RandomNumbers::Use::building, static_cast<std::uint64_t>(next_id));
   while (volume_left_ > 0) {
     const double share = random.next();

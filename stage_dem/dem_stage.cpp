@@ -12,6 +12,7 @@
 #include "stage_dem/dem_limits.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/part_timer.hpp"
+#include "stage_dem/process_time.hpp"
 #include "stage_dem/softening.hpp"
 
 namespace cupola {
@@ -32,8 +33,6 @@ constexpr long regrowth_steps = 10;
 /// Length of a batch of the window's statistics, s: ten batches a window, but none shorter than the bed remembers its
 /// velocity, unless that leaves fewer than four.
 double batch_seconds(double window) { return std::max(window / 10, std::min(0.25, window / 4)); }
-/// Times are sums of blocks: less than this apart they are the same, s.
-constexpr double same_time = 1e-9;
 
 }  // namespace
 

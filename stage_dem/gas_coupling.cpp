@@ -7,6 +7,7 @@
 #include "physics/closures/drag.hpp"
 #include "physics/closures/gas_properties.hpp"
 #include "stage_dem/parcels.hpp"
+#include "stage_dem/process_time.hpp"
 
 namespace cupola {
 namespace {
@@ -15,8 +16,6 @@ constexpr double void_change_allowed = 0.15;
 constexpr double longest_between = 0.25;  // s
 /// Relative change of the fluxes at which an iteration of the flow ends: the force needs no more.
 constexpr double force_tolerance = 1e-2;
-/// Times are sums of blocks: less than this apart they are the same, s.
-constexpr double same_time = 1e-9;
 /// Interstitial speed below which the gas counts as at rest in the damping, m/s.
 constexpr double least_speed = 0.01;
 

@@ -11,6 +11,9 @@ namespace cupola {
 /// Random sequential insertion of parcels in the room above the bed: each is put at random where it touches nothing.
 class Pouring {
  public:
+  /// Solids fraction that random insertion fills quickly.
+  static constexpr double loose_fraction = 0.22;
+
   /// @param present parcels that are there already
   Pouring(const Campaign& campaign, const std::vector<Parcel>& present);
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "stage_dem/process_time.hpp"
+
 namespace cupola {
 namespace {
 
 constexpr std::size_t integrals = 5;
-/// Times are sums of whole blocks: less than this apart they are the same.
-constexpr double same_time = 1e-9;
 
 }  // namespace
 

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/equations/face_geometry.hpp"
 #include "physics/projection/bed_state.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
 namespace {
-
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool is_outlet(const BedMesh& mesh, std::int64_t face) {
   const BedMesh::Patch* patch = mesh.patch_of(face);
