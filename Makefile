@@ -57,7 +57,7 @@ sanitize: setup
 FUZZ_SECONDS ?= 30
 fuzz: setup
 	@echo "== fuzzers"
-	@[ -f build-fuzz/build.ninja ] || CC=clang CXX=clang++ cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+	@[ -f build-fuzz/build.ninja ] || CC=clang CXX=clang++ cmake -S . -B build-fuzz -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DCUPOLA_SANITIZE=ON -DCUPOLA_FUZZ=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
 	cmake --build build-fuzz -j $(JOBS) --target fuzzers
 	@tools/fuzz.sh build-fuzz $(FUZZ_SECONDS)
