@@ -18,6 +18,7 @@ namespace {
 
 /// On streamlines that will move again, the temperatures need not be much better than the last move.
 constexpr double inner_over_outer = 0.2;
+constexpr double least_inner = 0.1;  // K
 constexpr int most_evaluations = 10;
 constexpr double flow_tolerance = 1e-4;
 /// Of a cell of which lines fill less than this share they know less and less what flows there.
@@ -25,7 +26,7 @@ constexpr double least_known = 0.1;
 /// Lines that pass from one cell to another let temperatures jump, however little they move.  Changes below this share
 /// of rms(T - 293 K) that have not fallen by a quarter over so many iterations are such jumps.
 constexpr double largest_jump = 0.01;
-constexpr std::size_t looked_at = 4;
+constexpr std::size_t looked_at = 3;
 constexpr double slow_decrease = 0.75;
 
 /// rms over the bed of what changed, K: the gas weighted with the cells' volumes, species with their shares of the
@@ -51,17 +52,21 @@ double change_of(const BedMesh& mesh, const std::vector<bool>& bed, const CellCo
   return weight > 0 ? std::sqrt(sum / weight) : 0;
 }
 
+/// rms(T - 293 K) of the gas, K.
+double level_of(const BedTemperatures& temperatures) {
+  double sum = 0;
+  for (const double gas : temperatures.gas) sum += (gas - enthalpy_zero) * (gas - enthalpy_zero);
+  return std::sqrt(sum / static_cast<double>(temperatures.gas.size()));
+}
+
 /// Whether what still changes is no more than lines that jump between cells.
-bool only_lines_jump(const std::vector<Predictor::Iteration>& done, const BedTemperatures& temperatures) {
+bool only_lines_jump(const std::vector<Predictor::Iteration>& done, double level) {
   if (done.size() < 2 * looked_at) return false;
   const auto least = [&](std::size_t from, std::size_t to) {
     double result = HUGE_VAL;
     for (std::size_t i = done.size() - from; i < done.size() - to; ++i) result = std::min(result, done[i].change);
     return result;
   };
-  double level = 0;
-  for (const double gas : temperatures.gas) level += (gas - enthalpy_zero) * (gas - enthalpy_zero);
-  level = std::sqrt(level / static_cast<double>(temperatures.gas.size()));
   return done.back().change < largest_jump * level &&
          least(looked_at, 0) > slow_decrease * least(2 * looked_at, looked_at);
 }
@@ -172,13 +177,15 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
           iteration + 1, record.change, record.evaluations, record.linear_iterations, record.correction,
           record.zone_height, held ? ", lines held" : "");
     }
-    if (record.change < settings.tolerance && record.correction < settings.tolerance) {
+    const double level = level_of(temperatures_);
+    const double wanted = held ? std::max(settings.tolerance, settings.held_tolerance * level) : settings.tolerance;
+    if (std::max(record.change, record.correction) < wanted) {
       outcome.converged = true;
       break;
     }
-    tolerance = std::clamp(inner_over_outer * record.change, 0.2 * settings.tolerance, 20.0);
+    tolerance = std::clamp(inner_over_outer * record.change, least_inner, 20.0);
     lagged.advance(state, {temperatures_.gas, solids_.contents, held ? state.share : implied_share(zone)});
-    if (!held && only_lines_jump(outcome.iterations, temperatures_)) {
+    if (!held && only_lines_jump(outcome.iterations, level)) {
       held = true;
       outcome.line_noise = record.change;
       lagged.begin_anew();

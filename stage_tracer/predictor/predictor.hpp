@@ -27,6 +27,8 @@ class Predictor {
 
   struct Settings {
     double tolerance = 0.5;  ///< K, rms change of an iteration
+    /// The same over rms(T - 293 K) once the lines are held: their jumps were larger than this.
+    double held_tolerance = 0.002;
     int most_iterations = 40;
     std::array<int, 2> lines_across{4, 2};  ///< streamlines along each stock face in x and in y
   };
