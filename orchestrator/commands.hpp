@@ -48,6 +48,21 @@ ExitCode verify(const std::filesystem::path& folder, bool as_json);
 /// `cupola report RUN`: makes the report anew, at whatever point the run stands.
 ExitCode report(const std::filesystem::path& folder);
 
+/// What may be asked of `cupola study`.
+struct StudyOptions {
+  std::optional<std::filesystem::path> folder;  ///< none: `studies/<study>` in the present folder
+  std::optional<int> jobs;                      ///< instead of the file's
+  std::optional<std::size_t> task;              ///< only this one: what a member of an array of jobs does
+  bool only_check = false;                      ///< says what would be run
+  bool only_gather = false;                     ///< runs nothing, makes the results anew
+  bool retry_failed = false;                    ///< what failed is tried again
+  bool submit = false;                          ///< as arrays of jobs in Slurm
+};
+
+/// `cupola study STUDY`: one scene at many settings, error against run time (docs/studies.md).
+/// @return done: all ended, and something could be compared; diverged: nothing could; stopped: goes on next time
+ExitCode study(const std::filesystem::path& study_file, const StudyOptions& options);
+
 /// `cupola init DIR`: writes a commented campaign to begin with.
 ExitCode init(const std::filesystem::path& folder);
 

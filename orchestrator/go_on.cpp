@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "orchestrator/child_process.hpp"
+#include "orchestrator/measured_rates.hpp"
 #include "orchestrator/report/report.hpp"
 #include "orchestrator/stage_state.hpp"
 #include "orchestrator/stage_versions.hpp"
@@ -30,7 +31,7 @@ ExitCode go_on(RunFolder& folder, const MarchOptions& options, SignalWatch& sign
   // later.
   const AfterStage renew_report = [&] {
     try {
-      make_report(folder.path());
+      remember_rates(make_report(folder.path()));
     } catch (const std::exception& problem) {
       view.say(fmt::format("no report: {}", problem.what()));
     }

@@ -150,6 +150,19 @@ int main(int argc, char** argv) {
       with_folder(app.add_subcommand("report", "Make the report of a run anew, at whatever point it stands"));
   report->callback([&] { command = [&] { return cupola::report(folder); }; });
 
+  cupola::StudyOptions study_options;
+  CLI::App* study = app.add_subcommand("study", "Run one scene at many settings: error against run time");
+  study->add_option("STUDY", campaign, "The study file (YAML)")->required();
+  study->add_option("--study-dir", study_options.folder, "Its folder; without it studies/<study>");
+  study->add_option("--jobs", study_options.jobs, "Settings at once, instead of the file's")
+      ->check(CLI::Range(1, 1000));
+  study->add_flag("--check", study_options.only_check, "List the settings and run nothing");
+  study->add_flag("--gather", study_options.only_gather, "Make the results anew from what is there; run nothing");
+  study->add_flag("--retry-failed", study_options.retry_failed, "Try again what has failed");
+  study->add_flag("--submit", study_options.submit, "Queue it in Slurm as arrays of jobs");
+  study->add_option("--task", study_options.task)->group("");  // what a member of an array does
+  study->callback([&] { command = [&] { return cupola::study(campaign, study_options); }; });
+
   CLI::App* init = app.add_subcommand("init", "Write a commented campaign file to begin with");
   init->add_option("DIR", folder, "The folder to write campaign.yaml into")->required();
   init->callback([&] { command = [&] { return cupola::init(folder); }; });

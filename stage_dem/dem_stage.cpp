@@ -34,6 +34,14 @@ constexpr long regrowth_steps = 10;
 /// velocity, unless that leaves fewer than four.
 double batch_seconds(double window) { return std::max(window / 10, std::min(0.25, window / 4)); }
 
+/// Relative standard error of the bed's velocity below the stock line so far; NaN with fewer than two batches.
+double velocity_error(const WindowAverages& averages, const BedMesh& mesh, const Campaign& campaign) {
+  std::vector<bool> bed(mesh.cells());
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell)
+    bed[cell] = mesh.cell_centre[cell][2] < campaign.charging.stock_line;
+  return averages.relative_error(bed);
+}
+
 }  // namespace
 
 DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCase& foam, const BedMesh& mesh,
@@ -187,10 +195,7 @@ bool DemStage::window_complete() const {
   if (state_.phase_time < dem.window - same_time) return false;
   if (dem.stop == DemSettings::Stop::duration) return true;
   if (dem.relaxation + state_.phase_time > dem.at_most - same_time) return true;
-  std::vector<bool> bed(mesh_.cells());
-  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell)
-    bed[cell] = mesh_.cell_centre[cell][2] < campaign_.charging.stock_line;
-  return averages_.relative_error(bed) < dem.standard_error;
+  return velocity_error(averages_, mesh_, campaign_) < dem.standard_error;
 }
 
 void DemStage::sample() {
@@ -316,14 +321,21 @@ void DemStage::watch() {
     auto& number = by_species[campaign_.species[static_cast<std::size_t>(parcel.species)].name];
     number = number.get<std::int64_t>() + 1;
   }
-  append_history(folder_, {{"step", engine_->step()},
-                           {"time", state_.time},
-                           {"phase", phase_name(state_.phase)},
-                           {"parcels", parcels_.size()},
-                           {"parcels_by_species", by_species},
-                           {"stock_height", state_.stock_height},
-                           {"mean_speed", state_.mean_speed},
-                           {"largest_overlap", overlap}});
+  nlohmann::json line = {{"step", engine_->step()},
+                         {"time", state_.time},
+                         {"wall_seconds", wall_seconds()},
+                         {"phase", phase_name(state_.phase)},
+                         {"parcels", parcels_.size()},
+                         {"parcels_by_species", by_species},
+                         {"stock_height", state_.stock_height},
+                         {"mean_speed", state_.mean_speed},
+                         {"largest_overlap", overlap}};
+  if (state_.phase == DemPhase::averaging) {
+    line["window_seconds"] = averages_.seconds();
+    if (const double error = velocity_error(averages_, mesh_, campaign_); std::isfinite(error))
+      line["velocity_error"] = error;
+  }
+  append_history(folder_, line);
 }
 
 double DemStage::wall_seconds() const { return state_.wall_before + seconds_since(started_); }

@@ -61,10 +61,14 @@ void TracerStage::write_output(bool checkpoint_now, bool last) {
 }
 
 nlohmann::json TracerStage::history_line() const {
-  nlohmann::json line = {{"step", step_}, {"time", now_}, {"tracers", all_tracers_}};
+  nlohmann::json line = {{"step", step_}, {"time", now_}, {"tracers", all_tracers_}, {"wall_seconds", wall_seconds()}};
   if (!campaign_.heat) return line;
+  if (step_error_.seconds > 0) line["time_step_error"] = step_error_.after(now_, error_memory_);
   line["mean_solid_temperature"] = mean_temperature(contents_, campaign_);
-  if (gas_) line["top_gas_temperature"] = gas_->energy_ledger().top_gas_temperature;
+  if (gas_) {
+    line["top_gas_temperature"] = gas_->energy_ledger().top_gas_temperature;
+    line["gas_energy_residual"] = gas_->energy_ledger().residual;
+  }
   if (can_melt(campaign_)) {
     const CellContents around = spread(contents_, kernel_);
     const double height =

@@ -19,7 +19,7 @@ set(browser_source "${CMAKE_CURRENT_SOURCE_DIR}/browser")
 add_custom_command(
   OUTPUT "${browser_build}/installed.stamp"
   COMMAND "${CMAKE_COMMAND}" -E copy "${browser_source}/package.json" "${browser_source}/package-lock.json"
-          "${browser_source}/.npmrc" "${browser_source}/report.mjs" "${browser_source}/serve.mjs" "${browser_build}"
+          "${browser_source}/.npmrc" "${browser_source}/report.mjs" "${browser_source}/serve.mjs" "${browser_source}/study.mjs" "${browser_build}"
   COMMAND "${NPM_PROGRAM}" ci --no-audit --no-fund --loglevel=error
   COMMAND "${CMAKE_COMMAND}" -E touch "${browser_build}/installed.stamp"
   DEPENDS "${browser_source}/package.json" "${browser_source}/package-lock.json" "${browser_source}/.npmrc"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orchestrator/launch/open_jobs.hpp"
+#include "orchestrator/report/accuracy.hpp"
 #include "orchestrator/report/answers.hpp"
 #include "orchestrator/report/charts.hpp"
 #include "orchestrator/report/json_numbers.hpp"
@@ -232,6 +233,7 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
                       {"tracer_history", tracer_history(stages)},
                       {"cohesive_zones", cohesive_zones(drawn)},
                       {"maps", field_maps(drawn, campaign)}};
+  report["accuracy"] = accuracy_and_cost(stages, report);
   report["provenance"] = provenance(run, stages);
   report["warnings"] = warnings(report);
   report["answers"] = answers(report);

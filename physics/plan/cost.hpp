@@ -3,14 +3,10 @@
 
 #include "physics/plan/charge.hpp"
 #include "physics/plan/dem_time_step.hpp"
+#include "physics/plan/rates.hpp"
 #include "schemas/campaign.hpp"
 
 namespace cupola {
-
-/// Measured rates the estimate rests on (docs/models.md says where they come from).
-inline constexpr double dem_parcel_steps_per_core_second = 2.1e6;
-inline constexpr double core_seconds_per_tracer_step = 3e-7;
-inline constexpr double core_seconds_per_gas_solution_of_a_cell = 1e-5;
 
 /// Expected work of one episode; the filling and settling of the first bed is not in it.
 struct Cost {
@@ -22,6 +18,13 @@ struct Cost {
   double tracer_time_step = 0;  ///< s
   double tracer_steps = 0;
   double tracer_core_seconds = 0;  ///< motion, heat and one gas solution a step
+  /// The same by what it is for, core seconds an episode; zero for what the scene does not need.
+  struct Parts {
+    double contacts = 0, dem_gas = 0, motion = 0, exchange = 0, conduction = 0, gas_flow = 0, gas_energy = 0;
+  };
+  Parts parts;
+  double dem_memory = 0, tracer_memory = 0;  ///< bytes at most, over all ranks (docs/models.md)
+  Rates rates;                               ///< what it rests on
   int ranks = 1;
   int fewest_episodes = 0, most_episodes = 0;  ///< a remaining change can be extrapolated from the third episode on
   [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / ranks; }
@@ -31,6 +34,6 @@ struct Cost {
 };
 
 Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,
-                   std::size_t cells);
+                   std::size_t cells, const Rates& rates = {});
 
 }  // namespace cupola

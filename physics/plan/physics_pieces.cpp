@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
+std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::Parts& cost) {
   const bool gas = campaign.scene.gas.has_value();
   const bool heat = campaign.heat.has_value();
   const bool dem_gas = gas && campaign.dem.gas != DemSettings::GasModel::none;
@@ -22,17 +22,19 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
   const char* cold = "the scene is cold (no heat section)";
 
   std::vector<PhysicsPiece> pieces;
-  const auto piece = [&](std::string name, bool on, std::string why) {
-    pieces.push_back({std::move(name), on, std::move(why)});
+  const auto piece = [&](std::string name, bool on, std::string why, double core_seconds = 0) {
+    pieces.push_back({std::move(name), on, std::move(why), on ? core_seconds : 0});
   };
   piece("contacts", true,
         campaign.contacts.model == Contacts::Model::hertz ? "Hertz with tangential history"
-                                                          : "linear spring with tangential history");
+                                                          : "linear spring with tangential history",
+        cost.contacts);
   piece("coarse graining", coarse,
         coarse ? "parcels stand for several grains (species.coarse_graining)" : "every grain is a parcel");
   piece("gas in the DEM stage", dem_gas,
         dem_gas ? fmt::format("quasi-steady, {} drag, one solution a block", drag_law_name(campaign.drag))
-                : (gas ? "dem.gas is none" : no_gas));
+                : (gas ? "dem.gas is none" : no_gas),
+        cost.dem_gas);
   const bool filtered = gas && campaign.filtered_drag.has_value();
   piece("drag of coarse parcels and cells", filtered,
         !gas ? no_gas
@@ -44,16 +46,22 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign) {
   piece("smoothed void fraction", smoothed,
         smoothed ? fmt::format("over {} m in the DEM stage", campaign.dem.smoothing_length)
                  : "dem.void_fraction is divided: parcels are shared out over the cells they lie in");
+  piece("motion of the tracers", true, "along the granular field of the DEM stage", cost.motion);
   piece("gas in the tracer stage", tracer_gas,
         tracer_gas ? fmt::format("Darcy-Forchheimer, {} drag", drag_law_name(campaign.drag))
-                   : (gas ? "tracer.gas is none" : no_gas));
+                   : (gas ? "tracer.gas is none" : no_gas),
+        cost.gas_flow);
+  piece("gas energy", heat && tracer_gas,
+        heat ? (tracer_gas ? "steady, with what the solids exchange" : "no gas in the tracer stage") : cold,
+        cost.gas_energy);
   piece("heat between gas and solids", heat && tracer_gas,
         heat ? (tracer_gas ? fmt::format("Ranz-Marshall x {}", campaign.heat->nusselt_factor)
                            : "no gas in the tracer stage")
-             : cold);
+             : cold,
+        cost.exchange);
   piece("gas conduction", heat && tracer_gas,
         heat ? (tracer_gas ? "Syamlal-Gidaspow" : "no gas in the tracer stage") : cold);
-  piece("conduction within a species", heat, heat ? "Carson" : cold);
+  piece("conduction within a species", heat, heat ? "Carson" : cold, cost.conduction);
   piece("exchange between layers", heat && layered,
         !heat ? cold : (layered ? "layers of different species touch" : "no layers of single species"));
   const bool loss = heat && campaign.scene.heat_loss.has_value();

@@ -149,7 +149,7 @@ void judge_bed(const Campaign& campaign, Plan& plan) {
 
 }  // namespace
 
-Plan make_plan(const Campaign& asked) {
+Plan make_plan(const Campaign& asked, const Rates& rates) {
   Plan plan;
   plan.charge = charge_of(asked);
   const auto flowing = with_mass_flows(asked, plan.charge);
@@ -166,7 +166,6 @@ Plan make_plan(const Campaign& asked) {
   plan.hopper_top = campaign.hopper_top();
   plan.dem_speed_up = dem_speed_up(campaign, plan.charge);
   plan.dem_step = dem_time_step(campaign);
-  plan.physics = physics_pieces(campaign);
 
   const std::vector<double> parcels = expected_parcels(campaign, plan.charge.volume_share, plan.charge.packing);
   for (std::size_t i = 0; i < parcels.size(); ++i) {
@@ -179,7 +178,8 @@ Plan make_plan(const Campaign& asked) {
     plan.inlets = inlet_plans(campaign, plan.pressure ? plan.pressure->at_inlets : campaign.scene.gas->outlet_pressure);
   }
   plan.cost = expected_cost(campaign, plan.charge, plan.dem_step, std::accumulate(parcels.begin(), parcels.end(), 0.0),
-                            plan.mesh.counts.cells());
+                            plan.mesh.counts.cells(), rates);
+  plan.physics = physics_pieces(campaign, plan.cost.parts);
   judge_inlets(campaign, plan);
   judge_drag(campaign, plan);
   judge_batches(campaign, plan);

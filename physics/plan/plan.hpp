@@ -20,6 +20,7 @@ struct PhysicsPiece {
   std::string name;
   bool on = false;
   std::string why;
+  double core_seconds = 0;  ///< expected, an episode; zero where it has no cost of its own, or is off
 };
 
 struct SpeciesPlan {
@@ -63,7 +64,7 @@ struct Plan {
 };
 
 /// @throws Failure wrong_input where the mesh does not hold the campaign
-Plan make_plan(const Campaign& campaign);
+Plan make_plan(const Campaign& campaign, const Rates& rates = {});
 
 /// @throws Failure wrong_input with all refusals of a plan, if there are any
 void refuse(const Plan& plan);

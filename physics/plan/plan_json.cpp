@@ -53,7 +53,8 @@ nlohmann::json plan_json(const Plan& plan) {
   json result;
   result["campaign"] = plan.campaign;
   for (const PhysicsPiece& piece : plan.physics) {
-    result["physics"].push_back({{"name", piece.name}, {"on", piece.on}, {"why", piece.why}});
+    result["physics"].push_back(
+        {{"name", piece.name}, {"on", piece.on}, {"why", piece.why}, {"core_seconds", piece.core_seconds}});
   }
   const MeshCounts& counts = plan.mesh.counts;
   result["mesh"] = {{"cells", counts.cells()},
@@ -106,6 +107,9 @@ nlohmann::json plan_json(const Plan& plan) {
                     {"tracer_time_step", plan.cost.tracer_time_step},
                     {"tracer_steps", plan.cost.tracer_steps},
                     {"tracer_core_seconds", plan.cost.tracer_core_seconds},
+                    {"dem_memory", plan.cost.dem_memory},
+                    {"tracer_memory", plan.cost.tracer_memory},
+                    {"basis", plan.cost.rates.basis},
                     {"ranks", plan.cost.ranks},
                     {"fewest_episodes", plan.cost.fewest_episodes},
                     {"most_episodes", plan.cost.most_episodes},

@@ -22,10 +22,16 @@ std::string duration(double seconds) {
   return fmt::format("{:.3g} h", seconds / 3600);
 }
 
+std::string percent(double share) { return share < 0.001 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * share); }
+
+std::string megabytes(double bytes) { return fmt::format("{:.2g} MB", std::ceil(bytes / 1e7) * 10); }
+
 void write_physics(Text& text, const Plan& plan) {
-  line(text, "Physics");
+  const double all = plan.cost.dem_core_seconds + plan.cost.tracer_core_seconds;
+  line(text, "Physics {:>41} of an episode's time", "share");
   for (const PhysicsPiece& piece : plan.physics) {
-    line(text, "  {:<3} {:<31} {}", piece.on ? "on" : "off", piece.name, piece.why);
+    const std::string share = piece.core_seconds > 0 && all > 0 ? percent(piece.core_seconds / all) : "";
+    line(text, "  {:<3} {:<31} {:>7}  {}", piece.on ? "on" : "off", piece.name, share, piece.why);
   }
 }
 
@@ -110,8 +116,11 @@ void write_cost(Text& text, const Plan& plan) {
        "  asked to stop, a DEM stage leaves with a checkpoint after a block at most (about {}), a tracer stage after a "
        "step (about {})",
        duration(cost.dem_block_wall_seconds()), duration(cost.tracer_step_wall_seconds()));
-  line(text, "  (from {:.2g} parcel steps, {:.2g} tracer steps, {:.2g} cells of gas a core second)",
-       dem_parcel_steps_per_core_second, 1 / core_seconds_per_tracer_step, 1 / core_seconds_per_gas_solution_of_a_cell);
+  line(text, "  memory over all ranks: DEM stage about {}, tracer stage about {}", megabytes(cost.dem_memory),
+       megabytes(cost.tracer_memory));
+  line(text, "  (from {:.2g} parcel steps, {:.2g} tracer steps, {:.2g} cells of gas a core second: {})",
+       1 / cost.rates.contacts, 1 / cost.rates.motion, 1 / (cost.rates.gas_flow + cost.rates.gas_energy),
+       cost.rates.basis);
 }
 
 }  // namespace

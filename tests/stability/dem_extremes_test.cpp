@@ -8,6 +8,9 @@
 
 #include "physics/plan/dem_time_step.hpp"
 #include "schemas/failure.hpp"
+#include "stage_dem/parcels.hpp"
+#include "stage_dem/solids_on_mesh.hpp"
+#include "tests/support/box_mesh.hpp"
 #include "tests/unit/dem/box_scene.hpp"
 
 /// The DEM stage's engine on stiff and extreme contacts, each at the time step that the program itself would take
@@ -138,6 +141,88 @@ std::vector<Heap> heaps() {
        [](Campaign& c) { c.species[1].density = 100 * c.species[0].density; }},
   };
 }
+
+/// A parcel in a steady wind: u(t) = u_gas (1 - exp(-t/tau)), tau its drag relaxation time.
+struct Wind {
+  std::string name;
+  std::string what;
+  double relaxation;  ///< over the time step
+};
+
+class DemWinds : public ::testing::TestWithParam<Wind> {};
+
+TEST_P(DemWinds, TakesTheParcelAlongAndNoFaster) {
+  constexpr double wind = 0.1;  // m/s
+  const auto begin = std::chrono::steady_clock::now();
+  const Campaign campaign = box_campaign();
+  const double step = dem_time_step(campaign).step;
+  auto engine = box_engine(campaign, step);
+  engine->add({make_parcel(campaign, 1, 0, {0, 0, 0.9})});
+  const double damping = everyone(*engine)[0].mass / (GetParam().relaxation * step);
+  engine->set_forces({{{damping * wind, 0, 0}, damping}});
+  // Not so long that it falls to the floor.
+  const long steps = std::clamp(static_cast<long>(3 * GetParam().relaxation), 20L, static_cast<long>(0.3 / step));
+  double last = 0;
+  for (int part = 1; part <= 10; ++part) {
+    engine->advance(std::max(1L, steps / 10));
+    const double speed = everyone(*engine)[0].velocity[0];
+    EXPECT_GE(speed, last - 1e-12 * wind) << "it does not swing";
+    EXPECT_LE(speed, wind * (1 + 1e-12)) << "and never overtakes the gas";
+    last = speed;
+  }
+  const double times = static_cast<double>(std::max(1L, steps / 10) * 10) / GetParam().relaxation;
+  const double exact = wind * (1 - std::exp(-times));
+  // An implicit step of first order: exact where the parcel follows at once, half a step off where it lags.
+  EXPECT_NEAR(last, exact, wind * (0.005 + 0.5 / std::max(1.0, GetParam().relaxation) * (times < 10 ? 1 : 0)));
+  std::cout << fmt::format("| DEM | {} | stable | speed {:.5f} of {:.5f} m/s | {:.2g} us | {:.1f} |\n", GetParam().what,
+                           last, exact, 1e6 * step,
+                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, DemWinds,
+                         ::testing::Values(Wind{"RelaxationMillionth", "drag relaxation time 10^-6 of the step", 1e-6},
+                                           Wind{"RelaxationThousandth", "drag relaxation time 10^-3 of the step", 1e-3},
+                                           Wind{"RelaxationOne", "drag relaxation time of one step", 1},
+                                           Wind{"RelaxationThousand", "drag relaxation time of 10^3 steps", 1e3}),
+                         [](const auto& info) { return info.param.name; });
+
+/// Parcels of five cells' size, divided over the cells exactly or spread further by the kernel.
+class DemWideParcels : public ::testing::TestWithParam<DemSettings::VoidFraction> {};
+
+TEST_P(DemWideParcels, KeepTheirVolume) {
+  const auto begin = std::chrono::steady_clock::now();
+  Campaign campaign = box_campaign(0.25, 0.3, 0.5);
+  campaign.dem.void_fraction = GetParam();
+  campaign.dem.smoothing_length = 0.1;
+  testing::BoxMesh box;  // cells of 0.02 m, parcels of 0.1 and 0.08 m
+  box.cells = {25, 15, 25};
+  box.lower = {-0.25, -0.15, 0};
+  box.upper = {0.25, 0.15, 0.5};
+  const BedMesh mesh = box.make();
+  SolidsOnMesh solids(mesh, campaign, MPI_COMM_WORLD);
+  const std::vector<Parcel> parcels = loose_parcels(campaign, 2);
+  solids.divide(parcels);
+  double in_cells = 0, in_parcels = 0, densest = 0;
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    in_cells += solids.volume()[cell];
+    densest = std::max(densest, solids.volume()[cell] / mesh.cell_volume[cell]);
+    EXPECT_GE(solids.volume()[cell], -1e-15);
+  }
+  for (const Parcel& parcel : parcels) in_parcels += material_volume(campaign, parcel);
+  EXPECT_NEAR(in_cells / in_parcels, 1, 1e-12);
+  EXPECT_LT(densest, 1 + 1e-9);
+  std::cout << fmt::format(
+      "| DEM | parcels five times the cell, void fraction {} | stable | volume to {:.1g}, at most {:.3f} of a cell | 1 "
+      "| {:.1f} |\n",
+      GetParam() == DemSettings::VoidFraction::smoothed ? "smoothed" : "divided", std::abs(in_cells / in_parcels - 1),
+      densest, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+INSTANTIATE_TEST_SUITE_P(Projection, DemWideParcels,
+                         ::testing::Values(DemSettings::VoidFraction::divided, DemSettings::VoidFraction::smoothed),
+                         [](const auto& info) {
+                           return info.param == DemSettings::VoidFraction::smoothed ? "Smoothed" : "Divided";
+                         });
 
 class DemHeaps : public ::testing::TestWithParam<Heap> {};
 

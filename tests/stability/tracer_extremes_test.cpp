@@ -116,9 +116,25 @@ std::vector<Extreme> extremes() {
        },
        ""},
       {"PressureHuge", "outlet at 1,000 bar", [](Campaign& c) { c.scene.gas->outlet_pressure = 1e8; }, ""},
-      {"FlatCells", "cells of 0.4 x 0.4 x 0.0008 m",
+      {"BlastOff", "blast switched off: 0 kg/s", [](Campaign& c) { blast(c, 0); }, "must be greater than 0"},
+      {"BlastReversed", "blast reversed: inlets at a pressure below the outlet's",
        [](Campaign& c) {
-         c.scene.mesh.cells = MeshCells{1, 1, {625, 15}};
+         for (Inlet& inlet : c.scene.gas->inlets) {
+           inlet.given = Inlet::Given::pressure;
+           inlet.mass_flow = 0;
+           inlet.pressure = 0.9 * c.scene.gas->outlet_pressure;
+         }
+       },
+       "gas flows out through the inlet"},
+      {"DescentDenormal", "descent of 10^-310 m/s", [](Campaign& c) { c.descent_rate = 1e-310; }, ""},
+      {"BlastTemperatureHuge", "blast of 10^300 K",
+       [](Campaign& c) {
+         for (Inlet& inlet : c.scene.gas->inlets) inlet.total_temperature = 1e300;
+       },
+       "?"},
+      {"FlatCells", "cells of 0.4 x 0.4 x 0.0004 m (1000:1)",
+       [](Campaign& c) {
+         c.scene.mesh.cells = MeshCells{1, 1, {1250, 15}};
          c.scene.mesh.cell = 0.13;
          c.tracer.duration = 3;
          c.scene.gas->inlets[0].size = c.scene.gas->inlets[1].size = {0.4, 0.13};

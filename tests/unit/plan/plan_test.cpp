@@ -183,5 +183,38 @@ TEST(Plan, TextAndJsonSayTheSame) {
   EXPECT_EQ(json["warnings"].size(), plan.warnings.size());
 }
 
+/// Expected time of all pieces of physics of a plan, core seconds; those that are off must cost nothing.
+double cost_of_pieces(const Plan& plan) {
+  double sum = 0;
+  for (const PhysicsPiece& piece : plan.physics) {
+    if (!piece.on) EXPECT_EQ(piece.core_seconds, 0) << piece.name;
+    sum += piece.core_seconds;
+  }
+  return sum;
+}
+
+TEST(Plan, TheTimeIsSplitByPieceOfPhysicsAndWhatIsOffTakesNone) {
+  Campaign campaign = paper_furnace();
+  const Plan hot = make_plan(campaign);
+  EXPECT_NEAR(cost_of_pieces(hot) / (hot.cost.dem_core_seconds + hot.cost.tracer_core_seconds), 1, 1e-12);
+  campaign.heat.reset();
+  const Plan cold = make_plan(campaign);
+  EXPECT_LT(cost_of_pieces(cold), cost_of_pieces(hot));
+  EXPECT_EQ(cold.cost.parts.gas_energy + cold.cost.parts.exchange + cold.cost.parts.conduction, 0);
+  campaign.scene.gas.reset();
+  const Plan bare = make_plan(campaign);
+  EXPECT_EQ(bare.cost.parts.gas_flow + bare.cost.parts.dem_gas, 0);
+  EXPECT_NEAR(cost_of_pieces(bare), bare.cost.parts.contacts + bare.cost.parts.motion, 1e-9);
+}
+
+TEST(Plan, MeasuredRatesTakeThePlaceOfTheBuiltInOnes) {
+  Rates rates;
+  rates.contacts *= 2;
+  rates.basis = "measured on a slow machine";
+  const Plan usual = make_plan(paper_furnace()), slow = make_plan(paper_furnace(), rates);
+  EXPECT_NEAR(slow.cost.parts.contacts / usual.cost.parts.contacts, 2, 1e-12);
+  EXPECT_THAT(plan_text(slow), HasSubstr("measured on a slow machine"));
+}
+
 }  // namespace
 }  // namespace cupola

@@ -1,0 +1,55 @@
+// What each error is, how it fell with the time spent on it, and where the next hour would help most.
+import { lines } from "./colours.js";
+import { duration, number, percent } from "./format.js";
+import { element, figure, table } from "./page.js";
+import { axis } from "./time_series.js";
+
+const kinds = [
+  { key: "granular", name: "granular velocity: standard error" },
+  { key: "time_step", name: "tracers' time step: estimate" },
+  { key: "gas", name: "gas: heat not accounted for" },
+];
+
+/** Curves of all episodes as one line, broken between them. */
+const points = (curves) => curves.flatMap(({ wall_seconds: wall, error }) => [...wall.map((x, i) => [x, 100 * error[i]]), [null, null]])
+  .filter(([x, y]) => x === null || y > 0);
+
+const changes = ({ episodes }) => episodes.filter(({ temperature }) => temperature > 0).map(({ wall_seconds: wall, temperature }) => [wall, 100 * temperature]);
+
+function errorFigure(accuracy) {
+  const series = kinds.filter(({ key }) => accuracy[key].length).map(({ key, name }, index) => ({
+    name, type: "line", showSymbol: accuracy[key].every(({ error }) => error.length < 3), symbolSize: 7, connectNulls: false, color: lines[index], lineStyle: { width: 2 }, data: points(accuracy[key]),
+  }));
+  const episodes = changes(accuracy);
+  if (episodes.length) series.push({ name: "temperature: change still to come", type: "line", symbol: "diamond", symbolSize: 11, color: lines[4], lineStyle: { width: 2, type: [6, 4] }, data: episodes });
+  if (!series.length) return null;
+  return figure({
+    name: "accuracy", title: "Errors over the wall time spent", height: 340,
+    note: "All relative. Granular velocity: standard error of the window so far, over the rms velocity. Time step: what halving it would change, from step doubling. Gas: residual of its energy ledger over the blast. Change still to come: by episode, extrapolated where three are done.",
+    options: () => ({
+      grid: { left: 66, right: 20, top: 30 + 22 * Math.ceil(series.length / 2), bottom: 46 },
+      legend: { top: 0, left: 0, itemWidth: 18, textStyle: { color: "#3a4356" } },
+      tooltip: { trigger: "axis", confine: true, valueFormatter: (value) => (value === null ? "–" : `${number(value, 3)} %`) },
+      xAxis: axis("wall time of the stages (s)", { type: "value", nameGap: 28, min: 0 }),
+      yAxis: axis("error (%)", { type: "log", nameGap: 50, axisLabel: { formatter: (value) => number(value, 2) } }),
+      series,
+    }),
+    rows: () => [["what", "episode", "window_s", "wall_time_s", "relative_error"],
+      ...kinds.flatMap(({ key }) => accuracy[key].flatMap(({ episode, wall_seconds: wall, error, window_seconds: window }) => wall.map((x, i) => [key, episode, window?.[i], x, error[i]]))),
+      ...accuracy.episodes.map(({ episode, wall_seconds: wall, temperature }) => ["change_of_temperature", episode, null, wall, temperature])],
+  });
+}
+
+export function accuracySection({ accuracy }) {
+  if (!accuracy) return null;
+  const chart = errorFigure(accuracy);
+  if (!chart && !accuracy.sources.length) return null;
+  return [element("h2", {}, "Accuracy and cost"),
+    chart ? element("div", { class: "charts" }, chart) : null,
+    accuracy.sources.length ? element("div", { class: "panel" },
+      element("p", {}, element("strong", {}, accuracy.sentence)),
+      table("", ["source of error", "now", "wall time it cost", "after an hour more", "by"],
+        accuracy.sources.map(({ name, error, wall_seconds: wall, after_an_hour: after, cure }) => [name, percent(error), duration(wall), percent(after), cure])),
+      element("p", {}, "An hour more of the averaging window lowers a standard error with the square root of its length; of shorter tracer steps in proportion; of further episodes by their contraction. A granular error is one of the velocity, the others are of temperatures.")) : null,
+  ].filter(Boolean);
+}

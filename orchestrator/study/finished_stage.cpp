@@ -1,0 +1,18 @@
+#include "orchestrator/study/finished_stage.hpp"
+
+#include "orchestrator/run_folder.hpp"
+#include "orchestrator/stage_state.hpp"
+
+namespace cupola {
+
+std::optional<std::filesystem::path> last_finished_stage(const std::filesystem::path& run_folder, TaskKind kind) {
+  const RunRecord run = read_run(run_folder);
+  std::optional<std::filesystem::path> last;
+  for (int episode = 1; std::filesystem::exists(stage_folder(run.folder, episode, kind)); ++episode) {
+    const StageState state = stage_state(run.folder, run.journal, episode, kind);
+    if (state.condition == StageState::Condition::finished) last = state.folder;
+  }
+  return last;
+}
+
+}  // namespace cupola
