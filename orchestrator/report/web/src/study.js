@@ -93,21 +93,30 @@ function errorFigure(study, metric) {
 }
 
 function settingsTable(study) {
-  const head = ["setting", "wall time", "core-hours", ...study.metrics.map((metric) => `${title(metric)}: error`), "state"];
+  const head = ["setting", "state", "wall time", "core-hours", ...study.metrics.map((metric) => `${title(metric)}: error`), "knee of"];
   const body = study.settings.map((setting) => {
     const bad = setting.runs.filter(({ state }) => state !== "finished");
-    const kneeOf = study.metrics.filter(({ knee }) => knee === setting.index).map(title);
     const error = (metric) => {
       const { mean, standard_error: bar } = setting.errors[metric.name] ?? {};
       const own = known(mean) ? `${shown(metric, mean)}${known(bar) ? ` ± ${shown(metric, bar, 2)}` : ""}` : setting.is_reference ? "reference" : "–";
       return metric.front.includes(setting.index) ? { text: own, kind: "good" } : own;
     };
-    const state = bad.length ? bad.map(({ seed, state: how, sentence }) => `${study.seeds > 1 ? `seed ${seed}: ` : ""}${how}${sentence ? `: ${sentence}` : ""}`).join("; ")
-      : kneeOf.length ? `knee: ${kneeOf.join(", ")}` : "finished";
-    return [setting.label, `${duration(setting.wall_seconds.mean)}`, number(setting.core_hours.mean, 3), ...study.metrics.map(error),
-      bad.length ? { text: state, kind: "bad" } : state];
+    const states = [...new Set(bad.map(({ state }) => state))].join(", ");
+    return [setting.label, bad.length ? { text: study.seeds > 1 ? `${bad.length} of ${study.seeds} ${states}` : states, kind: "bad" } : "finished",
+      duration(setting.wall_seconds.mean), number(setting.core_hours.mean, 3), ...study.metrics.map(error),
+      study.metrics.filter(({ knee }) => knee === setting.index).map(title).join(", ")];
   });
   return table("", head, body);
+}
+
+/** Why runs failed, each reason once with the settings it hit. */
+function failures(study) {
+  const reasons = new Map();
+  for (const { label, runs } of study.settings)
+    for (const { seed, state, sentence } of runs)
+      if (state === "failed") reasons.set(sentence, [...(reasons.get(sentence) ?? []), study.seeds > 1 ? `${label} (seed ${seed})` : label]);
+  if (!reasons.size) return null;
+  return element("ul", {}, [...reasons].map(([sentence, whose]) => element("li", {}, element("strong", {}, sentence), ` ${whose.join("; ")}`)));
 }
 
 function summary(study) {
@@ -136,7 +145,7 @@ export function studyPage(study) {
     figures.length ? element("h2", {}, "Error against run time") : null,
     figures.length ? element("div", { class: "charts" }, figures) : null,
     element("h2", {}, "Settings"),
-    element("div", { class: "panel" }, settingsTable(study), element("p", {}, "Green: on the Pareto front, no other setting is both faster and nearer. ± is the standard error over the seeds.")),
+    element("div", { class: "panel" }, settingsTable(study), element("p", {}, "Green: on the Pareto front, no other setting is both faster and nearer. ± is the standard error over the seeds."), failures(study)),
     element("details", { class: "panel" }, element("summary", {}, "The study file"), element("pre", { tabindex: "0" }, study.study_text)),
     element("footer", {}, "Charts by Apache ECharts. All numbers, in SI units, stand in study.json beside this file."),
   ].filter(Boolean);
