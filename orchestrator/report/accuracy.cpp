@@ -144,7 +144,7 @@ json accuracy_and_cost(const std::vector<StageReport>& stages, const json& repor
                                  {"error", source.error},
                                  {"wall_seconds", source.wall},
                                  {"after_an_hour", source.after(an_hour)}});
-  result["sentence"] = where_the_next_hour_helps(sources);
+  result["where_an_hour_helps"] = where_the_next_hour_helps(sources);
   return result;
 }
 

@@ -152,6 +152,18 @@ StudyWork study_work(const Study& study, const fs::path& folder) {
   return work;
 }
 
+namespace {
+
+/// A sentence with the paths of the study's own files as seen from its folder: it may be moved.
+std::string from_study_folder(std::string sentence, const StudyTask& task) {
+  const std::string root = task.folder.parent_path().parent_path().string() + "/";
+  for (std::size_t at = sentence.find(root); at != std::string::npos; at = sentence.find(root, at))
+    sentence.erase(at, root.size());
+  return sentence;
+}
+
+}  // namespace
+
 void look_after(StudyTask& task) {
   task.state = StudyTask::State::waiting;
   task.sentence.clear();
@@ -162,11 +174,11 @@ void look_after(StudyTask& task) {
       task.state = StudyTask::State::finished;
     } catch (const Failure& failure) {
       task.state = StudyTask::State::failed;
-      task.sentence = failure.what();
+      task.sentence = from_study_folder(failure.what(), task);
     }
   } else if (const std::string sentence = said_by(task.folder); !sentence.empty()) {
     task.state = StudyTask::State::failed;
-    task.sentence = sentence;
+    task.sentence = from_study_folder(sentence, task);
   }
 }
 

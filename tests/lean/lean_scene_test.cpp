@@ -44,9 +44,11 @@ Counted count(const Campaign& campaign) {
   const TracerProgram program(campaign,
                               [](const BedMesh& mesh, const Campaign& c) { return bed_at_rest(mesh, c, 0.6); });
   const std::string out = (program.path() / "callgrind.log").string();
-  const std::string command =
-      fmt::format("valgrind --tool=callgrind --compress-strings=no --callgrind-out-file={} {} {} > /dev/null 2>&1", out,
-                  CUPOLA_TRACER, program.path().string());
+  // The variable without which the program would start itself anew, which valgrind does not take.
+  const std::string command = fmt::format(
+      "WM_PROJECT_DIR=/usr/share/openfoam valgrind --tool=callgrind --compress-strings=no --callgrind-out-file={} {} "
+      "{} > /dev/null 2>&1",
+      out, CUPOLA_TRACER, program.path().string());
   EXPECT_EQ(std::system(command.c_str()), 0) << program.failure();
   Counted counted;
   std::ifstream file(out);

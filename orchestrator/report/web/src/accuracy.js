@@ -47,7 +47,7 @@ export function accuracySection({ accuracy }) {
   return [element("h2", {}, "Accuracy and cost"),
     chart ? element("div", { class: "charts" }, chart) : null,
     accuracy.sources.length ? element("div", { class: "panel" },
-      element("p", {}, element("strong", {}, accuracy.sentence)),
+      element("p", {}, element("strong", {}, accuracy.where_an_hour_helps)),
       table("", ["source of error", "now", "wall time it cost", "after an hour more", "by"],
         accuracy.sources.map(({ name, error, wall_seconds: wall, after_an_hour: after, cure }) => [name, percent(error), duration(wall), percent(after), cure])),
       element("p", {}, "An hour more of the averaging window lowers a standard error with the square root of its length; of shorter tracer steps in proportion; of further episodes by their contraction. A granular error is one of the velocity, the others are of temperatures.")) : null,
