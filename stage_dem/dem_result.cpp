@@ -1,5 +1,7 @@
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "stage_dem/bed_watch.hpp"
@@ -8,6 +10,7 @@
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/part_timer.hpp"
 #include "stage_dem/softening.hpp"
+#include "stage_dem/stationarity.hpp"
 
 namespace cupola {
 namespace {
@@ -62,6 +65,7 @@ nlohmann::json DemFiles::summary() const {
       {"largest_wall_overlap", state.largest_wall_overlap},
       {"fast_parcels", state.fast_parcels},
       {"creep_speed", state.creep_speed},
+      {"relaxation_seconds", state.relaxed_after},
       {"creep_over_descent", creep_over_descent(campaign, state.creep_speed)},
       {"coke_removal_rate", rate(coke)},
       {"removal_by_raceway", by_raceway},
@@ -75,6 +79,7 @@ nlohmann::json DemFiles::summary() const {
       {"stock_height", state.stock_height},
       {"ledger", stage_.books_.ledger(stage_.parcels_)},
   };
+  if (const double drifted = drift(state.descent); std::isfinite(drifted)) summary["drift"] = drifted;
   if (stage_.gas_) {
     summary["momentum_residual"] = stage_.gas_->momentum_residual();
     summary["gas"] = stage_.gas_->summary();

@@ -14,6 +14,7 @@
 #include "stage_dem/part_timer.hpp"
 #include "stage_dem/process_time.hpp"
 #include "stage_dem/softening.hpp"
+#include "stage_dem/stationarity.hpp"
 
 namespace cupola {
 namespace {
@@ -112,6 +113,7 @@ void DemStage::begin() {
 void DemStage::enter(DemPhase phase) {
   state_.phase = phase;
   state_.phase_time = 0;
+  state_.descent.clear();
   if (phase == DemPhase::averaging) books_at_window_ = books_;
   spdlog::info("{} at {:.2f} s of process time, {} parcels", phase_name(phase), state_.time, parcels_.size());
 }
@@ -179,7 +181,10 @@ void DemStage::next_phase() {
       if (!regrowing_) enter(DemPhase::relaxing);
       break;
     case DemPhase::relaxing:
-      if (state_.phase_time > campaign_.dem.relaxation - same_time) enter(DemPhase::averaging);
+      if (relaxed()) {
+        state_.relaxed_after = state_.phase_time;
+        enter(DemPhase::averaging);
+      }
       break;
     case DemPhase::averaging:
       if (window_complete()) enter(DemPhase::done);
@@ -189,12 +194,20 @@ void DemStage::next_phase() {
   }
 }
 
+bool DemStage::relaxed() const {
+  const DemSettings& dem = campaign_.dem;
+  if (state_.phase_time < dem.relaxation - same_time) return false;
+  if (dem.stop == DemSettings::Stop::duration || state_.phase_time > dem.at_most - dem.window - same_time) return true;
+  return std::abs(drift(state_.descent)) < stationary_up_to;
+}
+
 bool DemStage::window_complete() const {
   const DemSettings& dem = campaign_.dem;
   // The last block's sample is taken when the next one begins.
   if (state_.phase_time < dem.window - same_time) return false;
   if (dem.stop == DemSettings::Stop::duration) return true;
-  if (dem.relaxation + state_.phase_time > dem.at_most - same_time) return true;
+  if (state_.relaxed_after + state_.phase_time > dem.at_most - same_time) return true;
+  if (std::abs(drift(state_.descent)) > stationary_up_to) return false;
   return velocity_error(averages_, mesh_, campaign_) < dem.standard_error;
 }
 
@@ -307,6 +320,7 @@ void DemStage::watch() {
   if (state_.phase == DemPhase::building || state_.last_block <= 0) return;
   const BedMotion motion = bed_motion(parcels_, charging_.state().falling, state_.last_block);
   state_.mean_speed = motion.speed;
+  state_.descent.push_back(motion.downwards);
   state_.fast_parcels += motion.fast;
   if (state_.phase == DemPhase::settling) state_.creep_speed = motion.downwards;
   const double overlap = largest_overlap(campaign_, parcels_, communicator_);

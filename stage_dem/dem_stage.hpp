@@ -53,6 +53,9 @@ class DemStage {
   [[nodiscard]] bool moving() const {
     return state_.phase == DemPhase::relaxing || state_.phase == DemPhase::averaging;
   }
+  /// Whether the bed has got over the new cohesive zone: after `dem.relaxation`, and, where the stage ends by the state
+  /// of its fields, not before the bed's descent is stationary (as long as the window still fits in).
+  [[nodiscard]] bool relaxed() const;
   [[nodiscard]] bool window_complete() const;
   [[nodiscard]] double temperature_at(const Parcel& parcel) const;
   [[nodiscard]] double wall_seconds() const;

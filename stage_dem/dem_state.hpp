@@ -2,6 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace cupola {
 
@@ -28,6 +29,8 @@ struct DemState {
   std::int64_t fast_parcels = 0;             ///< parcels faster than 5 m/s, added up over blocks after the building
   double largest_overlap = 0;                ///< over the smaller radius, after the building
   double largest_wall_overlap = 0;           ///< over the parcel's radius, after the building
+  double relaxed_after = 0;                  ///< s, of relaxation
+  std::vector<double> descent;               ///< m/s of each block of the present phase: mean speed downwards
   double creep_speed = 0;                    ///< m/s downwards, end of the settling
   double mean_speed = 0;                     ///< m/s, last block
   double stock_height = 0;                   ///< m
@@ -36,7 +39,7 @@ struct DemState {
 };
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DemState, phase, time, phase_time, last_block, next_id, fast_parcels,
-                                   largest_overlap, largest_wall_overlap, creep_speed, mean_speed, stock_height,
-                                   wall_before, wall_parts)
+                                   largest_overlap, largest_wall_overlap, relaxed_after, descent, creep_speed,
+                                   mean_speed, stock_height, wall_before, wall_parts)
 
 }  // namespace cupola

@@ -31,8 +31,12 @@ LiggghtsInstance::~LiggghtsInstance() {
 }
 
 void LiggghtsInstance::command(const std::string& line) {
+  guarded(line, [&] { lammps_command(instance_, line.c_str()); });
+}
+
+void LiggghtsInstance::guarded(const std::string& line, const std::function<void()>& work) {
   try {
-    lammps_command(instance_, line.c_str());
+    work();
   } catch (Failure& failure) {
     failure.at("command", line);
     throw;

@@ -1,6 +1,7 @@
 #pragma once
 #include <mpi.h>
 
+#include <functional>
 #include <string>
 
 namespace LAMMPS_NS {
@@ -20,6 +21,10 @@ class LiggghtsInstance {
 
   /// @throws Failure diverged with LIGGGHTS' sentence and the command
   void command(const std::string& line);
+
+  /// Calls into LIGGGHTS; its refusals name `line` as the command.
+  /// @throws Failure diverged as `command`
+  static void guarded(const std::string& line, const std::function<void()>& work);
 
   [[nodiscard]] LAMMPS_NS::LAMMPS& operator*() const { return *instance_; }
   [[nodiscard]] LAMMPS_NS::LAMMPS* operator->() const { return instance_; }

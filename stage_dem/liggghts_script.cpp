@@ -147,10 +147,14 @@ std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::s
       fmt::format("pair_style gran model {}{}", model, contact_settings(contacts)),
       "pair_coeff * *",
       fmt::format("timestep {:.17g}", time_step),
-      "fix gravity all gravity 9.81 vector 0.0 0.0 -1.0",
       fmt::format("fix wall_mesh all mesh/surface file {} type {}", wall_file, campaign.species.size() + 1),
       fmt::format("fix walls all wall/gran model {} mesh n_meshes 1 meshes wall_mesh{}", model,
                   contact_settings(contacts)),
+      // What the contacts gave in the last step: stored here, before gravity and gas are added; kept beside the parcel
+      // (force, torque, whether there is one) from block to block and in restarts.
+      "fix contact_force all store/force",
+      "fix last_contact all property/atom last_contact vector yes no no 0. 0. 0. 0. 0. 0. 0.",
+      "fix gravity all gravity 9.81 vector 0.0 0.0 -1.0",
       // Ksl, uf and dragforce a parcel are written by the host; nothing is exchanged by LIGGGHTS itself.
       "fix coupling all couple/cfd couple_every 0 mpi",
       "fix gas_force all couple/cfd/force/implicit",

@@ -63,8 +63,16 @@ void WindowAverages::close_batch() {
 double WindowAverages::widening(double successive, double squares) const {
   if (squares <= 0 || batches_ < 3) return 1;
   const double n = static_cast<double>(batches_);
-  const double correlation = std::clamp(successive / (n - 1) / (squares / n), 0.0, 0.8);
-  return std::sqrt((1 + correlation) / (1 - correlation));
+  const double seen = successive / (n - 1) / (squares / n);
+  // Deviations from the window's own mean hide its error, w/n of the variance: what is seen of the correlation r is
+  // (r - w/n)/(1 - w/n), and of the variance 1 - w/n.
+  double correlation = 0;
+  double w = 1;
+  for (int turn = 0; turn < 20; ++turn) {
+    correlation = std::clamp(seen * (1 - w / n) + w / n, 0.0, 0.8);
+    w = std::min((1 + correlation) / (1 - correlation), n / 2);
+  }
+  return std::sqrt(w * (n - 1) / (n - w));
 }
 
 WindowAverages::Fields WindowAverages::fields() const {

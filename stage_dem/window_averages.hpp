@@ -17,9 +17,9 @@ struct BedSample {
 ///
 /// Samples are gathered into batches of at least `batch_seconds`; the fields are means over all samples (the velocity
 /// is the mean flux over the mean fraction), the standard error of a mean is sqrt(sum (b - mean)^2/(n (n - 1))) over
-/// the n batches b, widened by sqrt((1 + r)/(1 - r)) with r the correlation of successive batches, pooled over all
-/// cells (0 where it is negative, at most 0.8): the bed's velocity is correlated over about 0.2 s, its density over
-/// 0.75 s.
+/// the n batches b, widened by sqrt(w (n - 1)/(n - w)), w = (1 + r)/(1 - r), with r the correlation of successive
+/// batches, pooled over all cells and corrected for the window's own mean (0 where it is negative, at most 0.8): the
+/// bed's velocity is correlated over about 0.2 s, its density over 0.75 s.
 class WindowAverages {
  public:
   WindowAverages(std::size_t cells, double batch_seconds);

@@ -10,6 +10,8 @@ endforeach()
 target_link_libraries(test_dem_parts PRIVATE cupola_box_mesh)
 target_sources(test_dem_parts PRIVATE unit/dem/test_models.cpp)
 
+cupola_test(dem_stationarity LABEL unit SOURCES unit/dem/stationarity_test.cpp LIBRARIES cupola_dem)
+
 cupola_test(dem_program LABEL workflow SOURCES workflow/dem_program_test.cpp LIBRARIES cupola_schemas)
 add_dependencies(dem_program cupola-dem)
 target_compile_definitions(dem_program PRIVATE CUPOLA_DEM="$<TARGET_FILE:cupola-dem>" CUPOLA_MPIEXEC="${MPIEXEC_EXECUTABLE}"
@@ -18,8 +20,11 @@ target_compile_definitions(dem_program PRIVATE CUPOLA_DEM="$<TARGET_FILE:cupola-
 # Proofs against exact answers and published figures (docs/verification_dem.md), each a test of its own: with the engine alone.
 
 add_executable(dem_proofs verification/dem/proof_01_collisions.cpp
+                          verification/dem/proof_02_rolling.cpp
                           verification/dem/proof_03_packing.cpp
+                          verification/dem/proof_04_hopper.cpp
                           verification/dem/proof_09_momentum.cpp
+                          verification/dem/proof_11_standard_errors.cpp
                           verification/dem/proof_scene.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
 cupola_own_code(dem_proofs)
 target_link_libraries(dem_proofs PRIVATE cupola_dem GTest::gtest)
@@ -30,6 +35,23 @@ endfunction()
 dem_proof(01_two_parcels dem_proofs Collisions.TwoParcels* 1)
 dem_proof(01_wall dem_proofs Collisions.AParcelRebounds* 1)
 dem_proof(01_coarse_graining dem_proofs Collisions.RelativeOverlap* 1)
+dem_proof(02_rolling dem_proofs Rolling.* 1)
+dem_proof(03_packing_of_grains dem_proofs Packing.Grains* 1)
+dem_proof(03_packing_of_furnace dem_proofs Packing.TheFurnaces* 1)
 dem_proof(03_packing_of_parcels dem_proofs Packing.ParcelsPack* 1)
+dem_proof(04_beverloo dem_proofs Hopper.Discharges* 1)
 dem_proof(09_impulse_1 dem_proofs Impulse.* 1)
 dem_proof(09_impulse_2 dem_proofs Impulse.* 2)
+dem_proof(11_coverage dem_proofs StandardErrors.* 1)
+
+# With the gas, on the mesh of a box.
+add_executable(dem_gas_proofs verification/dem/proof_06_ergun.cpp verification/dem/proof_scene.cpp unit/dem/box_scene.cpp)
+cupola_own_code(dem_gas_proofs)
+target_link_libraries(dem_gas_proofs PRIVATE cupola_dem_stage cupola_foam_environment GTest::gtest GTest::gtest_main)
+dem_proof(06_ergun dem_gas_proofs ErgunBed.* 1)
+
+# The program on the tiny slot, some seconds of it.
+cupola_test(dem_proof_10 LABEL long SOURCES verification/dem/proof_10_ranks_test.cpp LIBRARIES cupola_schemas)
+add_dependencies(dem_proof_10 cupola-dem)
+target_compile_definitions(dem_proof_10 PRIVATE CUPOLA_DEM="$<TARGET_FILE:cupola-dem>" CUPOLA_MPIEXEC="${MPIEXEC_EXECUTABLE}"
+                                                CUPOLA_TINY="${CMAKE_SOURCE_DIR}/cases/tiny/campaign.yaml")

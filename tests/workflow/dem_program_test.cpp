@@ -15,35 +15,16 @@
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
 #include "schemas/version.hpp"
+#include "tests/support/child_process.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cupola {
 namespace {
 
-pid_t start(const std::vector<std::string>& words) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
-  std::vector<char*> arguments;
-  for (const auto& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  execvp(arguments[0], arguments.data());
-  _exit(127);
-}
-
-int exit_status(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
-
 /// Its exit status where it has ended.
 std::optional<int> ended(pid_t child) {
   int status = 0;
   if (waitpid(child, &status, WNOHANG) == 0) return std::nullopt;
-  return exit_status(status);
-}
-
-int wait_for(pid_t child) {
-  int status = 0;
-  waitpid(child, &status, 0);
   return exit_status(status);
 }
 

@@ -243,9 +243,9 @@ TEST(WindowAverages, CorrelatedBatchesWidenTheError) {
     averages.add({{0.5}, {0.6}, {0.5 * b, 0, 0}}, 0.1);
   }
   // Deviations -1 (8 times) then +1 (8 times): successive products 14 of 15 positive, correlation (13/15)/1 limited to
-  // 0.8.
+  // 0.8, w = 9 limited to half the batches.
   const double plain = std::sqrt(16.0 / (16 * 15));
-  EXPECT_NEAR(averages.fields().velocity_error[0], plain * std::sqrt(1.8 / 0.2), 1e-9);
+  EXPECT_NEAR(averages.fields().velocity_error[0], plain * std::sqrt(8 * 15.0 / (16 - 8)), 1e-9);
 }
 
 TEST(WindowAverages, GrowthIsTheSlopeOfAFractionThatRisesSteadily) {
