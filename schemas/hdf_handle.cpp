@@ -4,6 +4,14 @@
 
 namespace cupola::hdf {
 
+namespace {
+
+/// A file that could not be flushed crashes the library when it tidies up at the program's end; all files are closed
+/// by then.  It must be told before its first use.
+[[maybe_unused]] const herr_t no_tidying_at_the_end = H5dont_atexit();
+
+}  // namespace
+
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this != &other) {
     close();

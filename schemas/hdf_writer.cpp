@@ -53,17 +53,18 @@ struct HdfWriter::State {
     if (*there) return;
     make_group(parent_of(name));
     const auto creation = timeless(H5P_GROUP_CREATE);
-    const hdf::Handle group(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose);
-    if (!group) fail("group '" + name + "'");
+    hdf::Handle group(H5Gcreate2(file(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), H5Gclose);
+    if (!group || !group.close()) fail("group '" + name + "'");
   }
 
   /// One dataset of raw memory of a given type, groups on the way made.
   void dataset(const std::string& name, hid_t type, const hdf::Handle& space, const void* values) const {
     make_group(parent_of(name));
     const auto creation = timeless(H5P_DATASET_CREATE);
-    const hdf::Handle set(H5Dcreate2(file(), name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
-                          H5Dclose);
-    if (!set || H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+    hdf::Handle set(H5Dcreate2(file(), name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+                    H5Dclose);
+    // Small datasets are written when they are closed: a failure shows there and never again.
+    if (!set || H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 || !set.close()) {
       fail("dataset '" + name + "'");
     }
   }
@@ -82,10 +83,10 @@ struct HdfWriter::State {
   void attribute(const std::string& object, const std::string& name, hid_t type, const hdf::Handle& space,
                  const void* value) const {
     make_group(object);
-    const hdf::Handle written(H5Acreate_by_name(file(), object.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
-                                                H5P_DEFAULT, H5P_DEFAULT),
-                              H5Aclose);
-    if (!written || H5Awrite(written.get(), type, value) < 0) {
+    hdf::Handle written(H5Acreate_by_name(file(), object.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
+                                          H5P_DEFAULT, H5P_DEFAULT),
+                        H5Aclose);
+    if (!written || H5Awrite(written.get(), type, value) < 0 || !written.close()) {
       fail(fmt::format("attribute '{}' of '{}'", name, object));
     }
   }

@@ -118,11 +118,12 @@ try {
     if (width > 1000 && Object.keys(charts).length) {
       const client = await browser.target().createCDPSession();
       await client.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: outputFolder });
-      for (const name of Object.keys(charts)) {
+      for (const [index, name] of Object.keys(charts).entries()) {
+        if (index > 0 && index % 8 === 0) await page.reload();  // Chromium allows a page ten downloads
         const file = join(outputFolder, `${name}.csv`);
         rmSync(file, { force: true });
         await page.evaluate((chart) => document.querySelector(`figure[data-chart="${chart}"] button`).click(), name);
-        for (let waited = 0; !existsSync(file) && waited < 5000; waited += 50) await new Promise((done) => setTimeout(done, 50));
+        for (let waited = 0; !existsSync(file) && waited < 30000; waited += 50) await new Promise((done) => setTimeout(done, 50));
         const lines = readFileSync(file, "utf8").trim().split("\r\n");
         assert(lines.length > 1, `the CSV of ${name} has no rows`);
         assert(lines.every((line) => line.split(",").length === lines[0].split(",").length), `the CSV of ${name} is ragged`);

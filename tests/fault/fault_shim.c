@@ -12,8 +12,8 @@
  *   CUPOLA_FAULT_COUNT    a file that gets a line `program changes reads` when the program ends
  *   CUPOLA_FAULT_CLOCK    seconds the clock of the day is put forward (negative: back)
  *
- * A test in the program itself sets the next fault with cupola_fault_arm (found by dlsym), and asks with cupola_fault_reads how
- * many reads there were since.
+ * A test in the program itself sets the next fault with cupola_fault_arm (found by dlsym), and asks with cupola_fault_reads and
+ * cupola_fault_changes how many of them there were since.
  *
  * A power cut loses the bytes written to a file since its last fsync, a file made since, and a rename whose folder was not
  * synced since: the file has its old name and the old file is back (as a journalling file system leaves it).
@@ -104,6 +104,7 @@ void cupola_fault_arm(const char* folder, const char* wanted_kind, long number) 
   active = 1;
 }
 long cupola_fault_reads(void) { return reads; }
+long cupola_fault_changes(void) { return changes; }
 
 static int is_ours(const char* path) { return active == 1 && path && strncmp(path, under, strlen(under)) == 0; }
 static const char* path_of(int descriptor) {

@@ -12,10 +12,11 @@
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-/// A disk that fails once (EIO): whichever read it is, of whichever file of a real run (environment CUPOLA_FAULT_RUN),
-/// it is said with status 74, the file's name and the system's reason; never is the file taken for another, an empty or
-/// a shorter one.  Runs with tests/fault/fault_shim.c preloaded.
+/// A disk that fails once (EIO): whichever read or write it is, of whichever file of a real run (environment
+/// CUPOLA_FAULT_RUN), it is said with status 74, the file's name and the system's reason; never is the file taken for
+/// another, an empty or a shorter one, and nothing is lost in silence.  Runs with tests/fault/fault_shim.c preloaded.
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,9 +26,10 @@ using testing::HasSubstr;
 /// The preloaded library's switch.
 struct Disk {
   using Arm = void (*)(const char*, const char*, long);
-  using Reads = long (*)();
+  using Count = long (*)();
   Arm arm = reinterpret_cast<Arm>(dlsym(RTLD_DEFAULT, "cupola_fault_arm"));
-  Reads reads = reinterpret_cast<Reads>(dlsym(RTLD_DEFAULT, "cupola_fault_reads"));
+  Count reads = reinterpret_cast<Count>(dlsym(RTLD_DEFAULT, "cupola_fault_reads"));
+  Count changes = reinterpret_cast<Count>(dlsym(RTLD_DEFAULT, "cupola_fault_changes"));
 };
 
 /// Every dataset and the header of a file of fields.
@@ -49,7 +51,7 @@ void read_fields(const fs::path& file) {
     }
 }
 
-class ReadErrors : public testing::Test {
+class DiskErrors : public testing::Test {
  protected:
   void SetUp() override {
     const char* run = std::getenv("CUPOLA_FAULT_RUN");
@@ -83,7 +85,7 @@ class ReadErrors : public testing::Test {
   fs::path run_;
 };
 
-TEST_F(ReadErrors, OfEveryFileAreSaid) {
+TEST_F(DiskErrors, OfEveryReadAreSaid) {
   const fs::path dem = run_ / "episodes/001/dem/attempt-1";
   const fs::path tracer = run_ / "episodes/002/tracer/attempt-1";
   long reads = 0;
@@ -96,6 +98,33 @@ TEST_F(ReadErrors, OfEveryFileAreSaid) {
   reads += fail_each_read([&] { static_cast<void>(cupola::read_run(run_)); });
   reads += fail_each_read([&] { static_cast<void>(cupola::RunFolder::open(run_)); });
   std::cout << reads << " of " << reads << " failed reads said\n";
+}
+
+TEST_F(DiskErrors, OfEveryWriteOfAFieldFileAreSaid) {
+  const cupola::BedMesh mesh = cupola::BedMesh::read(run_ / "episodes/001/dem/attempt-1/foam/mesh.hdf");
+  const cupola::TemporaryFolder temporary;
+  const fs::path file = temporary.path() / "mesh.hdf";
+  mesh.write(file, "campaign");
+  const std::string whole = cupola::hash_file(file);
+  long said = 0;
+  for (long change = 1;; ++change) {
+    fs::remove(file);
+    disk_.arm(temporary.path().c_str(), "eio", change);
+    try {
+      mesh.write(file, "campaign");
+      const bool beyond_the_last = disk_.changes() < change;
+      disk_.arm(temporary.path().c_str(), "", 0);
+      EXPECT_EQ(cupola::hash_file(file), whole) << "change " << change << " failed, and nothing is said";
+      if (beyond_the_last) break;
+    } catch (const Failure& failure) {
+      disk_.arm(temporary.path().c_str(), "", 0);
+      EXPECT_EQ(failure.code(), cupola::ExitCode::input_output) << failure.what();
+      EXPECT_THAT(failure.what(), HasSubstr(temporary.path().string()));
+      ++said;
+    }
+  }
+  EXPECT_GT(said, 10);
+  std::cout << said << " failed writes said\n";
 }
 
 }  // namespace
