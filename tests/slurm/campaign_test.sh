@@ -7,7 +7,7 @@
 # campaign FILE LAUNCH: the tiny campaign, its stages long enough to be caught at work.
 campaign() {
   sed -e "s/^launch:.*/launch: {slurm: {ranks: 2, $2}}/" -e 's/^tracer:.*/tracer: {duration: 0.3 h, accuracy: 5 %}/' \
-    -e 's/^dem:.*/dem: {relaxation: 0.2 s, window: 1.0 s, stop: {at_most: 1.2 s}}/' "$source/cases/tiny/campaign.yaml" > "$1"
+    -e 's/^dem:.*/dem: {relaxation: 0.2 s, window: 6.0 s, stop: {at_most: 6.2 s}}/' "$source/cases/tiny/campaign.yaml" > "$1"
 }
 
 # same_end RUN [KEYS]: as the run in the allocation, to the last bit, whatever is said of these keys.
