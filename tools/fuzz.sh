@@ -13,14 +13,16 @@ for name in campaign fields; do
   mkdir -p "$build/fuzz/$name"
   limits=(-timeout=25 -malloc_limit_mb=32 -rss_limit_mb=2048 -max_len=262144 -artifact_prefix="$build/fuzz/$name-broken-")
   [[ -f $here/tests/fuzz/$name.dictionary ]] && limits+=(-dict="$here/tests/fuzz/$name.dictionary")
-  [[ $name == campaign ]] && for case in "$here"/cases/*/; do cp "$case/campaign.yaml" "$build/fuzz/$name/$(basename "$case").yaml"; done
+  if [[ $name == campaign ]]; then
+    for file in "$here"/cases/*/campaign.yaml; do cp "$file" "$build/fuzz/$name/$(basename "$(dirname "$file")").yaml"; done
+  fi
   # HDF5 is not instrumented: without these whole files would not be kept as a beginning.
   [[ $name == fields ]] && limits+=(-keep_seed=1 -len_control=0)
   log=$build/fuzz/$name.log
   begin=$SECONDS
   files=("$here/tests/fuzz/corpus/$name"/*)
   if ! "$build/bin/fuzz_$name" "${limits[@]}" "${files[@]}" > "$log" 2>&1 \
-    || ! "$build/bin/fuzz_$name" "${limits[@]}" -max_total_time="$seconds" -print_final_stats=1 "$build/fuzz/$name" \
+    || ! "$build/bin/fuzz_$name" "${limits[@]}" -seed=1 -max_total_time="$seconds" -print_final_stats=1 "$build/fuzz/$name" \
       "$here/tests/fuzz/corpus/$name" >> "$log" 2>&1; then
     tail -n 60 "$log"
     echo "FAILED: fuzz_$name; its input: $build/fuzz/$name-broken-*"
