@@ -45,13 +45,13 @@ bench-reference: build
 	$(BUILD)/bin/bench_tracer reference --step $(REFERENCE_STEP) --ranks 2
 
 # The address and undefined-behaviour sanitizers on the programs and on the unit and workflow tests, in a tree of their own.
-# Leaks are not looked for: OpenFOAM, LIGGGHTS and Open MPI keep what they hold until the process ends.
+# Without those that look at pages in a browser.  Leaks are not looked for: OpenFOAM, LIGGGHTS and Open MPI keep what they hold until the process ends.
 sanitize: setup
 	@echo "== sanitizers"
 	@[ -f build-sanitize/build.ninja ] || cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 -DCUPOLA_SANITIZE=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
 	cmake --build build-sanitize -j $(JOBS) --target sanitized
-	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long
+	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long -E 'browser|serve'
 
 # Fuzzers of the campaign reader and of the readers of HDF5: the kept corpus is replayed, then FUZZ_SECONDS each for something new.
 FUZZ_SECONDS ?= 30
