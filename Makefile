@@ -4,7 +4,7 @@ JOBS    ?= $(shell nproc)
 RUN_DIR ?= runs/slot_quick
 # Programs of Open MPI refuse to run as root unless told so; in a container root is all there is.
 ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1)
-CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure
+CTEST := $(ROOT_MAY_RUN_MPI) ctest --output-on-failure -j $(JOBS)
 
 .PHONY: run test test-long test-slurm setup build bench bench-reference sanitize fuzz tidy tidy-all format-check clean
 
