@@ -77,7 +77,7 @@ ExitCode outcome(const json& results) {
   return ExitCode::diverged;
 }
 
-ExitCode run_one_task(const Study& study, StudyWork& work, std::size_t index) {
+ExitCode run_one_task(StudyWork& work, std::size_t index) {
   if (index >= work.tasks.size())
     throw Failure(ExitCode::wrong_input, fmt::format("this study has {} tasks, counted from 0", work.tasks.size()));
   SignalWatch signals;
@@ -87,7 +87,6 @@ ExitCode run_one_task(const Study& study, StudyWork& work, std::size_t index) {
   for (std::size_t i = 0; i < alone.size(); ++i)
     if (i != index && alone[i].state == State::waiting) alone[i].state = State::stopped;
   const StageLauncher launcher(StageLauncher::own_folder());
-  static_cast<void>(study);
   StudyRunner runner(alone, launcher, signals, 1, [](const StudyTask& ended) {
     fmt::print("{}: {}\n", ended.name(), ended.state == State::finished ? "finished" : ended.sentence);
   });
@@ -117,7 +116,7 @@ ExitCode study(const fs::path& study_file, const StudyOptions& options) {
   const fs::path folder = make_study_folder(study, options.folder);
   StudyWork work = study_work(study, folder);
   for (StudyTask& task : work.tasks) look_after(task);
-  if (options.task) return run_one_task(study, work, *options.task);
+  if (options.task) return run_one_task(work, *options.task);
   const FolderLock lock(folder);
   write_text_atomically(folder / "study.yaml", read_text(study.file));
   if (options.retry_failed) forget_failures(work);

@@ -35,14 +35,6 @@ constexpr long regrowth_steps = 10;
 /// velocity, unless that leaves fewer than four.
 double batch_seconds(double window) { return std::max(window / 10, std::min(0.25, window / 4)); }
 
-/// Relative standard error of the bed's velocity below the stock line so far; NaN with fewer than two batches.
-double velocity_error(const WindowAverages& averages, const BedMesh& mesh, const Campaign& campaign) {
-  std::vector<bool> bed(mesh.cells());
-  for (std::size_t cell = 0; cell < mesh.cells(); ++cell)
-    bed[cell] = mesh.cell_centre[cell][2] < campaign.charging.stock_line;
-  return averages.relative_error(bed);
-}
-
 }  // namespace
 
 DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCase& foam, const BedMesh& mesh,
@@ -51,6 +43,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       campaign_(task.campaign),
       folder_(folder),
       mesh_(mesh),
+      bed_(bed_cells(mesh, campaign_)),
       communicator_(communicator),
       rank_(foam.rank()),
       ranks_(foam.ranks()),
@@ -208,7 +201,7 @@ bool DemStage::window_complete() const {
   if (dem.stop == DemSettings::Stop::duration) return true;
   if (state_.relaxed_after + state_.phase_time > dem.at_most - same_time) return true;
   if (std::abs(drift(state_.descent)) > stationary_up_to) return false;
-  return velocity_error(averages_, mesh_, campaign_) < dem.standard_error;
+  return averages_.relative_error(bed_) < dem.standard_error;
 }
 
 void DemStage::sample() {
@@ -346,8 +339,7 @@ void DemStage::watch() {
                          {"largest_overlap", overlap}};
   if (state_.phase == DemPhase::averaging) {
     line["window_seconds"] = averages_.seconds();
-    if (const double error = velocity_error(averages_, mesh_, campaign_); std::isfinite(error))
-      line["velocity_error"] = error;
+    if (const double error = averages_.relative_error(bed_); std::isfinite(error)) line["velocity_error"] = error;
   }
   append_history(folder_, line);
 }

@@ -64,6 +64,7 @@ class DemStage {
   const Campaign& campaign_;
   std::filesystem::path folder_;
   const BedMesh& mesh_;
+  std::vector<bool> bed_;  ///< cells below the stock plane
   MPI_Comm communicator_;
   int rank_ = 0;
   int ranks_ = 1;

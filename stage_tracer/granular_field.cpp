@@ -37,12 +37,6 @@ ChargedFlux charged_flux(const Campaign& campaign, const Charge& charge) {
   return result;
 }
 
-std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign) {
-  std::vector<bool> bed(mesh.cells());
-  for (std::size_t c = 0; c < mesh.cells(); ++c) bed[c] = mesh.cell_centre[c][2] < campaign.charging.stock_line;
-  return bed;
-}
-
 double packing_near_stock(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,
                           const std::vector<double>& solids_fraction) {
   const double stock = std::min(campaign.charging.stock_line, campaign.top());

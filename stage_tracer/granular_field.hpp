@@ -51,9 +51,6 @@ struct ChargedFlux {
 };
 ChargedFlux charged_flux(const Campaign& campaign, const Charge& charge);
 
-/// Cells whose centre lies below the stock plane.
-std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign);
-
 /// Packing (material volume fraction) of the bed's upper part: the mean between one and three thickest layers below the
 /// stock plane, or of the upper half where the bed is lower than that.
 double packing_near_stock(const BedMesh& mesh, const Campaign& campaign, const std::vector<bool>& bed,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/projection/bed_state.hpp"
 #include "physics/projection/clean_field.hpp"
 #include "schemas/failure.hpp"
 #include "stage_tracer/columns.hpp"

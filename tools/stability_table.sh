@@ -17,7 +17,7 @@ trap 'rm -f "$table"' EXIT
 if [[ ${2:-} == --write ]]; then
   marker='<!-- below: made by tools/stability_table.sh -->'
   grep -qxF "$marker" "$page"
-  head=$(sed "/^$marker\$/q" "$page")
+  head=$(sed "\\|^$marker\$|q" "$page")
   printf '%s\n\n%s\n' "$head" "$(cat "$table")" > "$page"
   echo "$(($(wc -l < "$table") - 2)) cases in $page"
 else

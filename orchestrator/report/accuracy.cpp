@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "orchestrator/convergence.hpp"
 #include "orchestrator/report/answers.hpp"
 #include "orchestrator/report/json_numbers.hpp"
 
@@ -60,7 +61,8 @@ void add_alternation(const json& report, double wall_of_episode, std::vector<Err
   if (!figure || wall_of_episode <= 0) return;
   sources.push_back({"the change from episode to episode",
                      "more episodes: `converged.at_most`, `cupola resume --at-most`", *figure, wall_of_episode,
-                     ErrorSource::Law::contraction, std::clamp(std::abs(lambda.value_or(0.95)), 0.3, 0.95)});
+                     ErrorSource::Law::contraction,
+                     std::clamp(std::abs(lambda.value_or(largest_lambda)), smallest_lambda, largest_lambda)});
 }
 
 }  // namespace

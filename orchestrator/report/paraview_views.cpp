@@ -81,19 +81,11 @@ std::string point_grid(const DataItems& items, const std::string& group) {
   return text;
 }
 
-/// The numbers 0, 1, 2 … for as many points as the largest result has.
-void write_vertices(const std::filesystem::path& run, const std::vector<StageReport>& stages) {
-  std::size_t most = 0;
-  for (const StageReport& stage : stages) {
-    if (!stage.readable) continue;
-    const HdfReader file(stage.result());
-    for (const char* dataset : {"Packing/position", "Tracers/position"})
-      if (file.has(dataset)) most = std::max(most, file.shape(dataset).first);
-  }
-  if (most == 0) return;
+/// The numbers 0, 1, 2 … for `most` points.
+void write_vertices(const std::filesystem::path& file_name, std::size_t most) {
   std::vector<std::int64_t> numbers(most);
   std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
-  HdfWriter file(run / "fields" / vertex_file);
+  HdfWriter file(file_name);
   file.write(vertex_dataset, numbers);
   file.commit();
 }
@@ -129,14 +121,18 @@ void write_paraview_views(const std::filesystem::path& run_folder, const std::ve
   if (error)
     throw Failure(ExitCode::input_output,
                   fmt::format("{}: cannot be made: {}", (run_folder / "fields").string(), error.message()));
-  write_vertices(run_folder, stages);
-  const auto points = [](const std::string& group) {
-    return [group](const DataItems& items) { return point_grid(items, group); };
+  std::size_t most = 0;
+  const auto points = [&most](const std::string& group) {
+    return [&most, group](const DataItems& items) {
+      most = std::max(most, items.file().shape(group + "/position").first);
+      return point_grid(items, group);
+    };
   };
   write_series(run_folder, stages, TaskKind::dem, "dem_fields", "VTKHDF/Points", mesh_grid);
   write_series(run_folder, stages, TaskKind::tracer, "tracer_fields", "VTKHDF/Points", mesh_grid);
   write_series(run_folder, stages, TaskKind::dem, "parcels", "Packing/position", points("Packing"));
   write_series(run_folder, stages, TaskKind::tracer, "tracers", "Tracers/position", points("Tracers"));
+  if (most > 0) write_vertices(run_folder / "fields" / vertex_file, most);
 }
 
 }  // namespace cupola

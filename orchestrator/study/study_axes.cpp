@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "orchestrator/report/json_numbers.hpp"
 #include "orchestrator/study/study_reader.hpp"
 #include "schemas/yaml_text.hpp"
 
@@ -18,9 +19,6 @@ constexpr int most_points = 1000;
 bool is_range(const Json& written) {
   return written.is_object() && written.contains("from") && written.contains("to") && written.contains("points");
 }
-
-/// Six digits are what a person would write.
-double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
 std::vector<Json> range_of(const Json& range, const CampaignKey& key, const std::string& place, StudyErrors& errors) {
   const auto refuse = [&](const std::string& message) {
@@ -46,8 +44,8 @@ std::vector<Json> range_of(const Json& range, const CampaignKey& key, const std:
   std::vector<Json> values;
   for (int i = 0; i < points; ++i) {
     const double share = static_cast<double>(i) / (points - 1);
-    const double value =
-        rounded(spacing == "linear" ? first + share * (last - first) : first * std::pow(last / first, share));
+    const double exact = spacing == "linear" ? first + share * (last - first) : first * std::pow(last / first, share);
+    const auto value = rounded(exact).get<double>();  // six digits are what a person would write
     values.push_back(whole && value == std::floor(value) ? Json(static_cast<std::int64_t>(value)) : Json(value));
   }
   return values;

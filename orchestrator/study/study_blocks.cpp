@@ -41,9 +41,8 @@ std::vector<double> cell_centres(const StudyFields& fields) {
 
 StudyBlocks::StudyBlocks(const StudyFields& one, const StudyFields& other)
     : size_(std::max(mean_cell_size(one), mean_cell_size(other))) {
-  double right = 0, top = 0;
   left_ = bottom_ = HUGE_VAL;
-  right = top = -HUGE_VAL;
+  double right = -HUGE_VAL, top = -HUGE_VAL;
   for (const StudyFields* fields : {&one, &other})
     for (std::size_t i = 0; i < fields->points.size(); i += 3) {
       left_ = std::min(left_, fields->points[i]);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "orchestrator/study/study_blocks.hpp"
+#include "physics/closures/enthalpy_zero.hpp"
 #include "schemas/field_file.hpp"
 
 namespace cupola {
@@ -12,7 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double zero_of_rise = 293;   // K
 constexpr double least_solids = 0.05;  // volume fraction below which there is no bed
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
@@ -225,7 +225,7 @@ std::optional<double> metric_figure(StudyMetric metric, const StudyFields& field
 std::optional<double> metric_error(StudyMetric metric, const StudyFields& fields, const StudyFields& reference) {
   switch (metric) {
     case StudyMetric::temperature:
-      return field_error(fields, reference, &StudyFields::temperature, 1, zero_of_rise);
+      return field_error(fields, reference, &StudyFields::temperature, 1, enthalpy_zero);
     case StudyMetric::cohesive_zone:
       return zone_error(fields, reference);
     case StudyMetric::descent:
@@ -247,7 +247,7 @@ std::optional<double> metric_error(StudyMetric metric, const StudyFields& fields
   switch (metric) {
     case StudyMetric::temperature:
       if (fields.temperature.empty()) return std::nullopt;
-      return points_error(fields, data, zero_of_rise, [&](std::size_t cell) { return fields.temperature[cell]; });
+      return points_error(fields, data, enthalpy_zero, [&](std::size_t cell) { return fields.temperature[cell]; });
     case StudyMetric::descent:
       return points_error(fields, data, 0, [&](std::size_t cell) { return -fields.velocity[3 * cell + 2]; });
     case StudyMetric::cohesive_zone: {

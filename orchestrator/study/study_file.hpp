@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -13,6 +14,8 @@ namespace cupola {
 
 /// What is run for each setting.
 enum class StudyStage { dem, tracer, episode, campaign };
+/// Its words in a study file, in the same order.
+inline constexpr std::array<const char*, 4> study_stage_words = {"dem", "tracer", "episode", "campaign"};
 
 /// Campaign keys that change together, and their values.
 struct StudyAxis {
@@ -70,6 +73,9 @@ ReadStudy read_study(const std::filesystem::path& file);
 
 /// Like read_study, all errors joined into one Failure (wrong_input).
 Study load_study(const std::filesystem::path& file);
+
+/// `tracer.time_step = 5 s, random_seed = 2`: keys and their values for people.
+std::string settings_text(const nlohmann::ordered_json& values);
 
 /// What a DEM stage of the first episode sees of a campaign, as a text: campaigns with the same text share it.
 std::string seen_by_dem_stage(const Campaign& campaign);

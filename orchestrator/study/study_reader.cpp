@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
 #include "physics/plan/plan.hpp"
@@ -19,9 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-/// In the order of StudyStage.
-constexpr std::array<const char*, 4> stage_words = {"dem", "tracer", "episode", "campaign"};
 
 std::optional<StudyScene> read_scene(const fs::path& file, StudyErrors& errors, std::vector<CampaignError>& of_scene) {
   if (!fs::is_regular_file(file)) {
@@ -70,7 +66,8 @@ Study read_document(YamlDocument& document, const fs::path& file, std::vector<Ca
   study.about = root.value("about", "");
   study.scene_file = (study.file.parent_path() / root["scene"].get<std::string>()).lexically_normal();
   study.stage = static_cast<StudyStage>(
-      std::find(stage_words.begin(), stage_words.end(), root["stage"].get<std::string>()) - stage_words.begin());
+      std::find(study_stage_words.begin(), study_stage_words.end(), root["stage"].get<std::string>()) -
+      study_stage_words.begin());
   study.begins_with_packing = root.value("begin", "empty") == "packing";
   study.seeds = root.value("seeds", 1);
   study.jobs = root.value("jobs", 1);
@@ -144,7 +141,9 @@ Study load_study(const fs::path& file) {
   return std::move(read.study);
 }
 
-std::string StudySetting::label() const {
+std::string StudySetting::label() const { return settings_text(values); }
+
+std::string settings_text(const Json& values) {
   std::string text;
   for (const auto& [key, value] : values.items())
     text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key,

@@ -46,11 +46,8 @@ void read_setting(const Json& named, Study& study, StudyErrors& errors) {
   std::string rest;
   for (std::size_t a = 0; a < study.axes.size(); ++a)
     if (!fixed[a]) rest += fmt::format("{}{}", rest.empty() ? "" : ", ", fmt::join(study.axes[a].keys, ", "));
-  std::string text;
-  for (const auto& [key, value] : named.items())
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key,
-                        value.is_string() ? value.get<std::string>() : value.dump());
-  study.reference.sentence = "the setting " + text + (rest.empty() ? "" : fmt::format(", each with its own {}", rest));
+  study.reference.sentence =
+      "the setting " + settings_text(named) + (rest.empty() ? "" : fmt::format(", each with its own {}", rest));
   if (study.settings.empty()) return;
   for (StudySetting& setting : study.settings) {
     std::vector<std::size_t> place = setting.place;

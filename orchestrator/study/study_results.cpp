@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "orchestrator/child_process.hpp"
@@ -103,7 +104,7 @@ class Results {
             {"study", study_.name},
             {"about", study_.about},
             {"scene", study_.scene.name},
-            {"stage", stage_word()},
+            {"stage", study_stage_words.at(static_cast<std::size_t>(study_.stage))},
             {"begin", study_.begins_with_packing ? "packing" : "empty"},
             {"seeds", study_.seeds},
             {"jobs", study_.jobs},
@@ -119,20 +120,6 @@ class Results {
   }
 
  private:
-  [[nodiscard]] std::string stage_word() const {
-    switch (study_.stage) {
-      case StudyStage::dem:
-        return "dem";
-      case StudyStage::tracer:
-        return "tracer";
-      case StudyStage::episode:
-        return "episode";
-      case StudyStage::campaign:
-        return "campaign";
-    }
-    return "";
-  }
-
   void read_fields() {
     fields_.resize(work_.runs.size());
     for (std::size_t i = 0; i < work_.runs.size(); ++i) {
@@ -144,6 +131,8 @@ class Results {
         fields_[i] = read_study_fields(*folder, TaskKind::tracer, last.campaign);
       }
     }
+    for (const auto& [metric, file] : study_.reference.data)
+      data_.emplace(metric, read_data_table(file, data_columns(metric)));
     if (study_.reference.kind != StudyReference::Kind::run) return;
     const TaskKind kind = study_.stage == StudyStage::dem ? TaskKind::dem : TaskKind::tracer;
     other_run_ = read_study_fields(last_finished_stage(study_.reference.run, kind).value(), kind, study_.scene);
@@ -165,7 +154,7 @@ class Results {
       case StudyReference::Kind::run:
         return metric_error(metric, *fields, *other_run_);
       case StudyReference::Kind::data:
-        return metric_error(metric, *fields, read_data_table(study_.reference.data.at(metric), data_columns(metric)));
+        return metric_error(metric, *fields, data_.at(metric));
       case StudyReference::Kind::analytic:
         return analytic_error(metric, *fields, study_.settings[setting].campaign);
     }
@@ -314,6 +303,7 @@ class Results {
   const StudyWork& work_;
   std::vector<std::optional<StudyFields>> fields_;  ///< by run
   std::optional<StudyFields> other_run_;
+  std::map<StudyMetric, DataTable> data_;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
 
   std::vector<PhysicsPiece> pieces;
   const auto piece = [&](std::string name, bool on, std::string why, double core_seconds = 0) {
-    pieces.push_back({std::move(name), on, std::move(why), on ? core_seconds : 0});
+    pieces.push_back({std::move(name), on, std::move(why), core_seconds});
   };
   piece("contacts", true,
         campaign.contacts.model == Contacts::Model::hertz ? "Hertz with tangential history"

@@ -41,6 +41,12 @@ double drag_factor(const Campaign& campaign, const Grains& grains, double solids
 
 }  // namespace
 
+std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign) {
+  std::vector<bool> bed(mesh.cells());
+  for (std::size_t c = 0; c < mesh.cells(); ++c) bed[c] = mesh.cell_centre[c][2] < campaign.charging.stock_line;
+  return bed;
+}
+
 std::vector<std::int64_t> raceway_cells(const BedMesh& mesh, const Raceway& raceway) {
   std::vector<std::int64_t> cells;
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {

@@ -29,6 +29,9 @@ inline constexpr double least_void_fraction = 0.10;
 BedState bed_state(const BedMesh& mesh, const Campaign& campaign,
                    const std::vector<std::vector<double>>& species_volume);
 
+/// Cells whose centre lies below the stock plane.
+std::vector<bool> bed_cells(const BedMesh& mesh, const Campaign& campaign);
+
 /// Indices of the cells whose centre lies in the raceway's box.
 std::vector<std::int64_t> raceway_cells(const BedMesh& mesh, const Raceway& raceway);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "physics/projection/bed_state.hpp"
 #include "schemas/failure.hpp"
 #include "stage_tracer/bed_composition.hpp"
 #include "tests/support/box_mesh.hpp"

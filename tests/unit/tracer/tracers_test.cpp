@@ -5,6 +5,7 @@
 #include <set>
 
 #include "physics/mesh/cell_locator.hpp"
+#include "physics/projection/bed_state.hpp"
 #include "schemas/failure.hpp"
 #include "stage_tracer/cell_contents.hpp"
 #include "stage_tracer/displacement.hpp"
