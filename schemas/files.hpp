@@ -48,6 +48,8 @@ std::optional<Progress> read_progress(const std::filesystem::path& folder);
 
 /// `history.jsonl`: one JSON object a line; each has "step".
 void append_history(const std::filesystem::path& folder, const nlohmann::json& line);
+/// Makes the lines so far outlast a power cut; before a checkpoint or a manifest that counts on them.
+void sync_history(const std::filesystem::path& folder);
 /// Drops lines whose "step" is greater than `last_step` (a resume from that step's checkpoint) and lines torn by a
 /// kill.  To be called before a resumed stage appends; -1 drops all.
 void cut_history(const std::filesystem::path& folder, long last_step);

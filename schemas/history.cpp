@@ -21,6 +21,10 @@ void append_history(const std::filesystem::path& folder, const nlohmann::json& l
   FileDescriptor(folder / history_name, O_WRONLY | O_CREAT | O_APPEND).write(to_line(line));
 }
 
+void sync_history(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / history_name)) FileDescriptor(folder / history_name, O_RDONLY).sync();
+}
+
 std::vector<nlohmann::json> read_history(const std::filesystem::path& folder) {
   std::vector<nlohmann::json> lines;
   if (!std::filesystem::exists(folder / history_name)) {

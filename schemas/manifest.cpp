@@ -33,6 +33,7 @@ Failure differs(const std::filesystem::path& file, const std::string& how) {
 }  // namespace
 
 void write_manifest(const std::filesystem::path& folder) {
+  sync_history(folder);
   // Ordered, so that equal folders have equal manifests.
   std::map<std::string, nlohmann::json> files;
   for (auto entry = std::filesystem::recursive_directory_iterator(folder); entry != std::filesystem::end(entry);

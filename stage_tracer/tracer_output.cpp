@@ -32,17 +32,19 @@ void TracerStage::write_output(bool checkpoint_now, bool last) {
   // Rank 0's clock decides for all.
   int due = wall - last_checkpoint_ > checkpoint_interval(usual_checkpoint_interval) ? 1 : 0;
   MPI_Bcast(&due, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  const long interval =
+      std::max(1L, steps_.count / most_history_lines + (steps_.count % most_history_lines != 0 ? 1 : 0));
+  // Before the checkpoint of the same step, which counts on this line.
+  if (step_ % interval == 0 || last) {
+    const auto running = clock_.measure("output");
+    const nlohmann::json line = history_line();  // every rank does its share of it
+    if (foam_.rank() == 0) append_history(folder_, line);
+  }
   if (due != 0 || checkpoint_now) {
     write_checkpoint();
     last_checkpoint_ = wall_seconds();
   }
   const auto running = clock_.measure("output");
-  const long interval =
-      std::max(1L, steps_.count / most_history_lines + (steps_.count % most_history_lines != 0 ? 1 : 0));
-  if (step_ % interval == 0 || last) {
-    const nlohmann::json line = history_line();  // every rank does its share of it
-    if (foam_.rank() == 0) append_history(folder_, line);
-  }
   if (foam_.rank() != 0) return;
   const bool first = last_progress_ == 0;
   if (wall - last_progress_ < seconds_between_progress && !first && !last && !checkpoint_now) return;

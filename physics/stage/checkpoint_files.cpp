@@ -40,6 +40,7 @@ void CheckpointFiles::write(long step, const std::function<void(const std::files
   const bool a_is_kept = kept && kept->file.filename() == "checkpoint-A.h5";
   const std::filesystem::path file = folder_ / (a_is_kept ? "checkpoint-B.h5" : "checkpoint-A.h5");
   write(file);
+  sync_history(folder_);  // the checkpoint counts on its lines
   seal_checkpoint(file, step);
 }
 
