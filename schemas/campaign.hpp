@@ -257,7 +257,12 @@ struct TracerSettings {
   [[nodiscard]] double longest() const { return stop == Stop::steady ? at_most : duration; }
 };
 
-enum class Strategy { march };
+enum class Strategy { march, predict_and_verify };
+
+/// How `strategy: predict-and-verify` verifies.
+struct PredictAndVerify {
+  int windows = 6;  ///< layer passages that tracers are marched in an episode; the first is not looked at
+};
 
 struct Converged {
   double temperature = 0.01;           ///< remaining change over rms(T - 293 K)
@@ -301,6 +306,7 @@ struct Campaign {
   DemSettings dem;
   TracerSettings tracer;
   Strategy strategy = Strategy::march;
+  PredictAndVerify predict_and_verify;
   Converged converged;
   Launch launch;
   std::uint64_t random_seed = 1;

@@ -462,6 +462,7 @@ Campaign campaign_from_document(const YamlDocument& document) {
   campaign.dem = read_dem(root.section("dem"), campaign.scene.gas.has_value());
   campaign.tracer = read_tracer(root.section("tracer"), campaign.scene.gas.has_value());
   root.read("strategy", campaign.strategy, words::strategy);
+  root.section("predict_and_verify").read("windows", campaign.predict_and_verify.windows);
   const auto converged = root.section("converged");
   converged.read("temperature", campaign.converged.temperature);
   converged.read("cohesive_zone", campaign.converged.cohesive_zone_cells);

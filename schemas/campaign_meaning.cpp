@@ -178,6 +178,23 @@ void check_stages(Context& context) {
   }
 }
 
+/// Predictions need what the predictor solves for, and a march to verify them whose length is not asked for elsewhere.
+void check_strategy(Context& context) {
+  const auto& campaign = context.campaign;
+  if (campaign.strategy != Strategy::predict_and_verify) {
+    if (context.has("predict_and_verify"))
+      context.add("predict_and_verify", "this needs `strategy: predict-and-verify`");
+    return;
+  }
+  if (!campaign.heat) context.add("strategy", "a prediction needs `heat`; a cold scene: `strategy: march`");
+  if (campaign.raceways.empty())
+    context.add("strategy", "a prediction needs a bed that descends into `raceways`; without them: `strategy: march`");
+  if (campaign.tracer.stop == TracerSettings::Stop::steady)
+    context.add(context.has("tracer.stop.when") ? "tracer.stop.when" : "strategy",
+                "`steady` does not go with predict-and-verify, which marches `predict_and_verify.windows` layer "
+                "passages and `tracer.duration` where a prediction fails");
+}
+
 }  // namespace
 }  // namespace meaning
 
@@ -190,6 +207,7 @@ void check_meaning(const Campaign& campaign, YamlDocument& document) {
   meaning::check_charging(context);
   meaning::check_raceways(context);
   meaning::check_stages(context);
+  meaning::check_strategy(context);
   meaning::check_launch(context);
 }
 

@@ -62,7 +62,8 @@ inline constexpr Table<Heat::BedConduction, 3> bed_conduction{
     {{Heat::BedConduction::carson, "carson"},
      {Heat::BedConduction::zehner_bauer_schluender, "zehner-bauer-schluender"},
      {Heat::BedConduction::mixture, "mixture"}}};
-inline constexpr Table<Strategy, 1> strategy{{{Strategy::march, "march"}}};
+inline constexpr Table<Strategy, 2> strategy{
+    {{Strategy::march, "march"}, {Strategy::predict_and_verify, "predict-and-verify"}}};
 
 template <typename Enum, std::size_t count>
 constexpr std::string_view word_of(const Table<Enum, count>& table, Enum wanted) {

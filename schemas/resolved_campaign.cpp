@@ -230,6 +230,8 @@ Json resolved_json(const Campaign& campaign) {
   json["dem"] = dem_json(campaign.dem);
   json["tracer"] = tracer_json(campaign.tracer);
   json["strategy"] = word(words::strategy, campaign.strategy);
+  if (campaign.strategy == Strategy::predict_and_verify)
+    json["predict_and_verify"] = {{"windows", campaign.predict_and_verify.windows}};
   json["converged"] = {{"temperature", campaign.converged.temperature},
                        {"cohesive_zone", campaign.converged.cohesive_zone_cells},
                        {"granular_velocity", campaign.converged.granular_velocity_sigma},

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// In the order of TaskKind.
-constexpr std::array<const char*, 3> kind_names = {"dem", "tracer", "predict"};
+constexpr std::array<const char*, 4> kind_names = {"dem", "tracer", "predict", "correct"};
 constexpr const char* task_file = "task.yaml";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& sentence) {
@@ -110,7 +110,8 @@ Task read_task(const std::filesystem::path& folder) {
   Task task;
   const auto kind = members.text("kind");
   const auto known = std::find(kind_names.begin(), kind_names.end(), kind);
-  if (known == kind_names.end()) refuse(file, fmt::format("`kind` must be dem, tracer or predict, but is `{}`", kind));
+  if (known == kind_names.end())
+    refuse(file, fmt::format("`kind` must be dem, tracer, predict or correct, but is `{}`", kind));
   task.kind = static_cast<TaskKind>(known - kind_names.begin());
   task.episode = static_cast<int>(members.count("episode"));
   task.campaign_hash = members.text("campaign_hash");

@@ -8,7 +8,7 @@
 
 namespace cupola {
 
-enum class TaskKind { dem, tracer, predict };
+enum class TaskKind { dem, tracer, predict, correct };
 
 /// A file a task reads, with the content hash it must have.
 struct TaskInput {
@@ -20,11 +20,13 @@ struct TaskInput {
 ///   dem:    `packing` (DEM result of the episode before; absent in the first), `solids_temperature` (tracer result of
 ///   the
 ///           episode before; absent in the first: the guessed cohesive zone of the campaign counts)
-///   tracer: `granular` (DEM result of this episode), `solids_temperature` (tracer result of the episode before, or
-///   absent)
-///   predict: `granular` (the last DEM result) and `solids_temperature` (what that one softened by, and the first
-///   guess),
-///           or neither
+///   tracer: `granular` (DEM result of this episode), `solids_temperature` (what it softened by, or absent),
+///   `prediction`
+///           (whose temperatures the tracers begin with, and windows are kept for a correction; without: they begin
+///           with `solids_temperature`)
+///   predict: `granular` (the last DEM result), `solids_temperature` (what that one softened by, and the first guess),
+///           `correction` (what marches have measured against predictions); or none of them
+///   correct: `granular`, `solids_temperature` (as above), `prediction`, and `march` (tracer result that began with it)
 struct Task {
   TaskKind kind = TaskKind::dem;
   int episode = 1;            ///< from 1

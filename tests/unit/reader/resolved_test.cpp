@@ -72,6 +72,13 @@ TEST(ResolvedCampaign, KeepsRingsAndTheStopOfTheTracerStage) {
   EXPECT_EQ(resolved_json(read(resolved_yaml(campaign))), resolved_json(campaign));
 }
 
+TEST(ResolvedCampaign, KeepsTheStrategy) {
+  const auto campaign = read(test::base_campaign + "strategy: predict-and-verify\npredict_and_verify: {windows: 7}\n");
+  EXPECT_EQ(campaign.strategy, Strategy::predict_and_verify);
+  EXPECT_EQ(read(resolved_yaml(campaign)).predict_and_verify.windows, 7);
+  EXPECT_FALSE(resolved_json(read(test::base_campaign)).contains("predict_and_verify"));
+}
+
 TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
   auto campaign = read(test::base_campaign);
   EXPECT_FALSE(campaign.filtered_drag);

@@ -73,7 +73,7 @@ TEST_F(TaskFile, RefusesWhatItCannotRead) {
   EXPECT_THAT(refusal(), testing::HasSubstr("written in file schema 2, this program reads 1"));
   write_task(folder(), task);
   spoil("kind: \"tracer\"", "kind: \"tracker\"");
-  EXPECT_THAT(refusal(), testing::HasSubstr("`kind` must be dem, tracer or predict"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("`kind` must be dem, tracer, predict or correct"));
   write_task(folder(), task);
   spoil("campaign_hash:", "campaign_hush:");
   EXPECT_THAT(refusal(), testing::HasSubstr("the key `campaign_hash` is missing"));
