@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orchestrator/convergence.hpp"
+#include "orchestrator/convergence_rules.hpp"
 #include "orchestrator/episode_judgement.hpp"
 #include "orchestrator/prediction.hpp"
 #include "orchestrator/stage_runner.hpp"
@@ -47,11 +48,14 @@ Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::files
 constexpr const char* on_request = "on request";
 constexpr const char* after_one_stage = "after one stage, as asked for";
 
-std::string change_text(const json& judgement) {
+std::string change_text(const json& judgement, const Campaign& campaign) {
   std::string text;
-  for (const auto& [rule, change] : judgement["change"].items())
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rule,
+  for (const ConvergenceRule& rule : convergence_rules()) {
+    if (!rule.applies(campaign)) continue;
+    const json& change = judgement["change"][rule.name];
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", rule.name,
                         change.is_null() ? "not known" : fmt::format("{:.3g}", change.get<double>()));
+  }
   return text;
 }
 
@@ -107,7 +111,7 @@ class March {
     if (judgement.is_null()) {
       judgement = judge_episode(finished_, run_.campaign());
       run_.journal().append("episode-judged", judgement);
-      view_.say(fmt::format("episode {}: change over criterion: {}", episode, change_text(judgement)));
+      view_.say(fmt::format("episode {}: change over criterion: {}", episode, change_text(judgement, run_.campaign())));
     }
     met_.push_back(judgement.value("met", false));
     after_stage_();

@@ -82,9 +82,10 @@ class Section {
   }
 
   /// A number, or a table of rows [temperature, value]; NaN where it is neither.
-  void need(const std::string& key, PropertyCurve& value) const {
+  void read(const std::string& key, PropertyCurve& value) const {
     const auto* found = find(key);
-    if (found == nullptr || !found->is_array()) {
+    if (found == nullptr) return;
+    if (!found->is_array()) {
       double constant = unknown;
       read(key, constant);
       value = constant;
@@ -229,8 +230,8 @@ Species read_species(const std::string& name, const Section& section) {
   section.need("diameter", species.diameter);
   section.read("coarse_graining", species.coarse_graining);
   section.need("density", species.density);
-  section.need("heat_capacity", species.heat_capacity);
-  section.need("conductivity", species.conductivity);
+  section.read("heat_capacity", species.heat_capacity);
+  section.read("conductivity", species.conductivity);
   if (const auto softening = section.section("softening"); softening.present()) {
     species.softening.emplace();
     softening.need("from", species.softening->from);

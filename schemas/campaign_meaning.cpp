@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "schemas/campaign_from_document.hpp"
 
@@ -84,6 +85,9 @@ void check_species(Context& context) {
     if (species.name == "wall")
       context.add(path, "`wall` is the name of the walls in contacts.pairs: give the species another");
     if (species.name == "ring") context.add(path, "`ring` is a key of charging.layers: give the species another name");
+    for (const auto& [key, like] : {std::pair{"heat_capacity", "850 J/kg/K"}, {"conductivity", "1.7 W/m/K"}})
+      if (context.has("heat") && !context.has(path_of(path, key)))
+        context.add_at_key(path, "the key `{}` is missing: with `heat` every species needs it (like {})", key, like);
     check_curve(context, species.heat_capacity, path_of(path, "heat_capacity"));
     check_curve(context, species.conductivity, path_of(path, "conductivity"));
     if (!species.softening) {

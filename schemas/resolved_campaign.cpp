@@ -82,11 +82,10 @@ Json curve_json(const PropertyCurve& curve) {
 }
 
 Json species_json(const Species& species) {
-  Json json{{"diameter", species.diameter},
-            {"coarse_graining", species.coarse_graining},
-            {"density", species.density},
-            {"heat_capacity", curve_json(species.heat_capacity)},
-            {"conductivity", curve_json(species.conductivity)}};
+  Json json{{"diameter", species.diameter}, {"coarse_graining", species.coarse_graining}, {"density", species.density}};
+  // Zero: left out of the file of a cold scene.
+  if (species.heat_capacity.points().front()[1] != 0) json["heat_capacity"] = curve_json(species.heat_capacity);
+  if (species.conductivity.points().front()[1] != 0) json["conductivity"] = curve_json(species.conductivity);
   if (species.softening) {
     json["softening"] = {{"from", species.softening->from},
                          {"melted", species.softening->melted},

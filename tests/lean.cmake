@@ -1,0 +1,11 @@
+# Only what the scene needs: counted by callgrind.
+if(NOT TARGET cupola_tracer_program)
+  return()
+endif()
+find_program(VALGRIND_PROGRAM valgrind REQUIRED)
+add_executable(lean_scenes lean/counted_program.cpp lean/dem_scene_test.cpp lean/tracer_scene_test.cpp)
+cupola_own_code(lean_scenes)
+target_link_libraries(lean_scenes PRIVATE cupola_tracer_program GTest::gtest GTest::gtest_main)
+target_compile_definitions(lean_scenes PRIVATE CUPOLA_TRACER="$<TARGET_FILE:cupola-tracer>" CUPOLA_DEM="$<TARGET_FILE:cupola-dem>")
+add_dependencies(lean_scenes cupola-dem cupola-tracer)
+gtest_discover_tests(lean_scenes TEST_PREFIX "lean_scenes." DISCOVERY_TIMEOUT 60 PROPERTIES LABELS verification TIMEOUT 1200)

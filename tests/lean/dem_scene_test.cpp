@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "schemas/campaign_reader.hpp"
+#include "schemas/files.hpp"
+#include "schemas/task.hpp"
+#include "schemas/version.hpp"
+#include "tests/lean/counted_program.hpp"
+#include "tests/support/child_process.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+/// The DEM stage does only what its scene needs.
+namespace cupola::testing {
+namespace {
+
+constexpr const char* cold = R"(
+campaign: cold
+scene:
+  geometry: {slot: {depth: 0.4 m, profile: [[0, 0.4], [0.5, 0.4], [1.2, 0.3]]}}
+  mesh: {cell: 0.13 m}
+species:
+  coke: {diameter: 44 mm, coarse_graining: 3, density: 800 kg/m3}
+contacts:
+  youngs_modulus: 5 MPa
+  pairs:
+    coke-coke: {restitution: 0.5, friction: 0.5, rolling: 0.1}
+    coke-wall: {restitution: 0.5, friction: 0.3, rolling: 0.02}
+charging: {stock_line: 0.9 m, layers: [{coke: 22 kg}]}
+raceways:
+  - {box: {x: [-0.4 m, -0.2 m], y: [-0.2 m, 0.2 m], z: [0.1 m, 0.4 m]}, dem_removal_rate: 5 kg/s}
+descent_rate: 2 mm/s
+dem: {relaxation: 0, window: 0.1 s, stop: {when: duration}}
+launch: {ranks: 1}
+)";
+
+/// What couples gas and parcels, and what a temperature makes of them.
+const char* const gas = "cupola::(GasCoupling|BedFlow|DarcyForchheimer|Openings)::";
+const char* const flow_solver = "Foam::(lduMatrix::lduMatrix|fvMatrix<double>::fvMatrix)";
+const char* const softening = "cupola::(soften|regrow|melted)[(]";
+
+TEST(LeanDemScene, ColdSceneWithoutGasConstructsNoFlowSolver) {
+  const TemporaryFolder folder;
+  const auto campaign_file = folder.path() / "campaign.yaml";
+  write_text_atomically(campaign_file, cold);
+  Task task;
+  task.kind = TaskKind::dem;
+  task.campaign = load_campaign(campaign_file);
+  task.campaign_hash = hash_text(cold);
+  task.program_version = program_version;
+  const auto prepare = [&](const std::filesystem::path& place) {
+    std::filesystem::create_directories(place);
+    write_task(place, task);
+    return wait_for(start({CUPOLA_DEM, "prepare", place.string()}));
+  };
+  // The bed is poured uncounted.
+  const auto poured = folder.path() / "poured", counted_folder = folder.path() / "counted";
+  ASSERT_EQ(prepare(poured), 0);
+  ASSERT_EQ(wait_for(start({CUPOLA_DEM, poured.string()})), 0);
+  task.inputs["packing"] = {(poured / "result.hdf").string(), hash_file(poured / "result.hdf")};
+  ASSERT_EQ(prepare(counted_folder), 0);
+  const Counted lean = count(CUPOLA_DEM, counted_folder, "cupola::DemStage::run()");
+  EXPECT_TRUE(lean.calls("cupola::DemStage::advance_block"));
+  for (const char* piece : {gas, flow_solver, softening}) EXPECT_FALSE(lean.calls(piece)) << piece;
+  for (const char* piece : {gas, softening}) EXPECT_TRUE(has_function(CUPOLA_DEM, piece)) << piece;
+  for (const std::string& name : lean.written) {
+    EXPECT_EQ(name.find("emperature"), std::string::npos) << name;
+    EXPECT_EQ(name.find("gas"), std::string::npos) << name;
+  }
+  std::cout << fmt::format("{:.4g} instructions of the stage in {} functions\n", lean.instructions, lean.called.size());
+}
+
+}  // namespace
+}  // namespace cupola::testing
