@@ -1,5 +1,5 @@
 /// The orchestrator's own share of a campaign's wall time: what it takes beside its stages (hashes, journal, judgement,
-/// report) and the processor time it takes while it waits for them.
+/// report) and the processor time it takes while it waits for them; and how long the stages take to their first step.
 ///   bench_orchestrator [--json FILE] [--campaign FILE | --run RUN]
 /// Runs the campaign (cases/tiny without one) in a folder of its own, or reads a run that is there.
 #include <fmt/format.h>
@@ -44,6 +44,15 @@ int main(int argc, char** argv) {
   }
   fmt::print("orchestrator: {:.3g} s of {:.4g} s wall time its own ({:.2f} %), {:.3g} s of processor time ({:.2f} %)\n",
              own, all, 100 * own / all, processor, 100 * processor / all);
+  // From the start of a stage's process to its first step.
+  std::map<std::string, double> start_up;
+  for (const nlohmann::json& episode :
+       cupola::read_json(std::filesystem::path(run) / "report/report.json").at("episodes"))
+    for (const char* stage : {"dem", "tracer"})
+      if (const nlohmann::json::json_pointer part("/wall_seconds_by_part/start-up");
+          episode.contains(stage) && episode[stage].contains(part))
+        start_up[stage] = std::max(start_up[stage], episode[stage][part].get<double>());
+  for (const auto& [stage, seconds] : start_up) fmt::print("{} stage: first step after {:.2f} s\n", stage, seconds);
   if (json_file.empty()) return 0;
   nlohmann::json figures = nlohmann::json::array();
   const auto figure = [&](const char* metric, double value, const char* unit) {
@@ -55,5 +64,6 @@ int main(int argc, char** argv) {
   };
   figure("own wall time", 100 * own / all, "%");
   figure("own processor time", 100 * processor / all, "%");
+  for (const auto& [stage, seconds] : start_up) figure((stage + " start-up").c_str(), seconds, "s");
   cupola::write_json_atomically(json_file, figures);
 }

@@ -64,7 +64,7 @@ class Rows {
 double marching_seconds(const Json& summary) {
   double sum = 0;
   for (const auto& [part, seconds] : summary["wall_seconds_by_part"].items()) {
-    if (part != "preparation" && part != "first gas solution") sum += seconds.get<double>();
+    if (part != "start-up" && part != "first gas solution") sum += seconds.get<double>();
   }
   return sum;
 }

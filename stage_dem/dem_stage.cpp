@@ -47,7 +47,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       communicator_(communicator),
       rank_(foam.rank()),
       ranks_(foam.ranks()),
-      started_(Clock::now()),
+      started_(process_start()),
       last_progress_(started_ - std::chrono::hours(1)),
       last_checkpoint_(started_),
       step_(dem_time_step(task.campaign)),
@@ -101,6 +101,7 @@ void DemStage::begin() {
     files.make_engine({});
     enter(DemPhase::building);
   }
+  state_.wall_parts["start-up"] += seconds_since(started_);
 }
 
 void DemStage::enter(DemPhase phase) {

@@ -8,6 +8,7 @@
 #include "physics/mesh/foam_case.hpp"
 #include "physics/plan/dem_time_step.hpp"
 #include "physics/stage/checkpoint_files.hpp"
+#include "physics/stage/process_start.hpp"
 #include "physics/stage/stop_request.hpp"
 #include "schemas/failure.hpp"
 #include "schemas/task.hpp"

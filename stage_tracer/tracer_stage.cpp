@@ -108,7 +108,7 @@ ExitCode TracerStage::run() {
   if (found) {
     resume(found->file);
   } else {
-    clock_.add("preparation", wall_seconds());
+    clock_.add("start-up", wall_seconds());
     begin();
   }
   last_checkpoint_ = wall_seconds();

@@ -7,6 +7,7 @@
 #include "physics/mesh/cell_locator.hpp"
 #include "physics/mesh/foam_case.hpp"
 #include "physics/stage/checkpoint_files.hpp"
+#include "physics/stage/process_start.hpp"
 #include "schemas/failure.hpp"
 #include "schemas/task.hpp"
 #include "stage_tracer/averages.hpp"
@@ -72,7 +73,7 @@ class TracerStage {
   const Task& task_;
   const Campaign& campaign_;
   CheckpointFiles checkpoints_;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point started_ = process_start();
   PartClock clock_;
 
   // What does not change during the march.
