@@ -46,11 +46,11 @@ int main(int argc, char** argv) {
              own, all, 100 * own / all, processor, 100 * processor / all);
   // From the start of a stage's process to its first step.
   std::map<std::string, double> start_up;
-  for (const nlohmann::json& episode :
-       cupola::read_json(std::filesystem::path(run) / "report/report.json").at("episodes"))
+  const nlohmann::json report = cupola::read_json(std::filesystem::path(run) / "report/report.json");
+  const nlohmann::json::json_pointer part("/wall_seconds_by_part/start-up");
+  for (const nlohmann::json& episode : report.at("episodes"))
     for (const char* stage : {"dem", "tracer"})
-      if (const nlohmann::json::json_pointer part("/wall_seconds_by_part/start-up");
-          episode.contains(stage) && episode[stage].contains(part))
+      if (episode.contains(stage) && episode[stage].contains(part))
         start_up[stage] = std::max(start_up[stage], episode[stage][part].get<double>());
   for (const auto& [stage, seconds] : start_up) fmt::print("{} stage: first step after {:.2f} s\n", stage, seconds);
   if (json_file.empty()) return 0;
