@@ -45,7 +45,7 @@ std::vector<std::string> SlurmChain::submit(const StageLauncher& launcher, std::
   if (at_most) words.insert(words.end(), {"--at-most", std::to_string(*at_most)});
   write_text_atomically(folder / "link.sh", link_script(*launch.slurm, words));
 
-  BatchJob link{job_name(run_, "chain"), folder / "link.sh", folder, folder / "link.log", ""};
+  BatchJob link{job_name(run_, "chain"), folder / "link.sh", folder, folder / "link.log"};
   const int links = stages_left(run_.journal().records(), at_most.value_or(run_.campaign().converged.at_most));
   run_.journal().append("chain-submitting", {{"name", link.name}, {"links", links}});
   std::vector<std::string> jobs;

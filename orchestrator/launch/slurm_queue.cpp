@@ -94,8 +94,9 @@ std::vector<std::string> sbatch_words(const Launch& launch, const BatchJob& job)
   add("account", slurm.account);
   add("qos", slurm.qos);
   if (slurm.nodes > 0) add("nodes", std::to_string(slurm.nodes));
+  add("array", job.array);
   if (!job.after.empty()) {
-    words.push_back("--dependency=afterok:" + job.after);
+    words.push_back((job.after_any_end ? "--dependency=afterany:" : "--dependency=afterok:") + job.after);
     words.emplace_back("--kill-on-invalid-dep=yes");
   }
   words.insert(words.end(), slurm.options.begin(), slurm.options.end());

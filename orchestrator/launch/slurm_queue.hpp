@@ -30,7 +30,9 @@ struct BatchJob {
   std::filesystem::path script;
   std::filesystem::path folder;  ///< it works there
   std::filesystem::path log;     ///< standard output and error are appended here
-  std::string after;             ///< begins only after this job has ended well; empty: at once
+  std::string after = {};        ///< begins only after this job has ended; empty: at once
+  bool after_any_end = false;    ///< … whether that one ended well or not
+  std::string array = {};        ///< numbers of an array's members, `0-3,7%2`: at most two at once; empty: one job
 };
 
 /// The whole call of sbatch for a job.

@@ -4,10 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "orchestrator/launch/job_script.hpp"
-#include "orchestrator/launch/program_output.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
 #include "orchestrator/stage_launcher.hpp"
 #include "schemas/failure.hpp"
@@ -16,19 +14,8 @@
 namespace cupola {
 namespace {
 
-using namespace std::chrono_literals;
 using State = StudyTask::State;
 namespace fs = std::filesystem;
-
-constexpr auto patience = 60s;
-
-std::string submit_words(const std::vector<std::string>& words) {
-  const ProgramOutput said = output_of(words, patience);
-  if (said.status != 0)
-    throw Failure(said.status == 127 ? ExitCode::input_output : ExitCode::wrong_input,
-                  fmt::format("sbatch did not take the job (status {}): {}", said.status, said.error));
-  return said.output.substr(0, said.output.find_first_of(";\n"));
-}
 
 }  // namespace
 
@@ -69,16 +56,17 @@ std::vector<std::string> submit_study(const Study& study, const StudyWork& work,
   const fs::path log = folder / "slurm.log";
   std::vector<std::string> jobs;
   const auto layers = array_layers(work.tasks);
-  const auto submit = [&](const std::string& name, const std::string& script_text, const std::vector<std::string>& more,
+  const auto submit = [&](const std::string& name, const std::string& script_text, const std::string& array,
                           int ranks) {
     const fs::path script = folder / (name + ".sh");
     write_text_atomically(script, script_text);
     Launch with = launch;
     with.ranks = ranks;
-    std::vector<std::string> words = sbatch_words(with, {study.name + "-" + name, script, folder, log, ""});
-    words.insert(words.end() - 1, more.begin(), more.end());
-    if (!jobs.empty()) words.insert(words.end() - 1, "--dependency=afterany:" + jobs.back());
-    jobs.push_back(submit_words(words));
+    BatchJob job{study.name + "-" + name, script, folder, log};
+    job.array = array;
+    job.after = jobs.empty() ? "" : jobs.back();
+    job.after_any_end = true;  // a failed setting is a row that says so
+    jobs.push_back(SlurmQueue::submit(with, job));
   };
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     int ranks = 1;
@@ -88,11 +76,11 @@ std::vector<std::string> submit_study(const Study& study, const StudyWork& work,
     std::string text = link_script(*launch.slurm, words);
     // The number is the shell's to fill in.
     text.insert(text.size() - 1, " \"$SLURM_ARRAY_TASK_ID\"");
-    submit(fmt::format("array-{}", layer + 1), text, {"--array=" + array_list(layers[layer], study.jobs)}, ranks);
+    submit(fmt::format("array-{}", layer + 1), text, array_list(layers[layer], study.jobs), ranks);
   }
   std::vector<std::string> words = begin;
   words.emplace_back("--gather");
-  submit("gather", link_script(*launch.slurm, words), {}, 1);
+  submit("gather", link_script(*launch.slurm, words), "", 1);
   return jobs;
 }
 

@@ -57,7 +57,7 @@ function errorFigure(study, metric) {
   const front = pointsOf(metric, metric.front.map((index) => study.settings[index]));
   const marks = known(metric.noise) && metric.noise > 0 ? {
     silent: true, symbol: "none", lineStyle: { color: "#7b8494", type: [4, 4] },
-    label: { formatter: "seeds of the reference", position: "insideEndTop", color: "#5a6478" }, data: [{ yAxis: scaled(metric, metric.noise) }],
+    label: { formatter: "seeds of the reference", position: "insideStartBottom", color: "#5a6478" }, data: [{ yAxis: scaled(metric, metric.noise) }],
   } : undefined;
   return figure({
     name: `error_${metric.name}`, title: `${titled(title(metric))}: error against wall time`, height: 380,
