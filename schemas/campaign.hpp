@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -128,16 +129,24 @@ struct ContactPair {
 
 struct Contacts {
   enum class Model { hertz, linear_spring };
-  enum class Rolling { none, cdt, epsd2 };
+  enum class Rolling { none, cdt, epsd, epsd2 };
+  enum class StiffnessOf { grain, parcel };
   Model model = Model::hertz;
-  Rolling rolling_model = Rolling::cdt;
+  Rolling rolling_model = Rolling::epsd;
   double youngs_modulus = 5e7;       ///< Pa (hertz)
   double wall_youngs_modulus = 5e6;  ///< Pa (hertz)
   double poisson_ratio = 0.25;
-  double stiffness = 0;               ///< N/m of the grain (linear-spring)
-  double tangential_ratio = 2.0 / 7;  ///< tangential over normal stiffness (linear-spring)
+  double rolling_damping = 0.3;                   ///< of critical, of the rolling spring (epsd)
+  double stiffness = 0;                           ///< N/m (linear-spring)
+  StiffnessOf stiffness_of = StiffnessOf::grain;  ///< what `stiffness` belongs to: the parcel's is n times the grain's
+  double tangential_ratio = 2.0 / 7;              ///< tangential over normal stiffness (linear-spring)
   std::map<std::string, ContactPair>
       pairs;  ///< "coke-coke", "coke-ore", "coke-wall", …; species names in the order of `species`
+
+  /// What `stiffness` is multiplied with to be a parcel's, N/m.
+  [[nodiscard]] double stiffness_factor(double coarse_graining) const {
+    return stiffness_of == StiffnessOf::grain ? coarse_graining : 1;
+  }
 };
 
 enum class DragLaw { ergun, wen_yu, gidaspow, di_felice, koch_hill, beetstra, emms };
@@ -197,6 +206,14 @@ struct Raceway {
   Removal removal = Removal::rate;
 };
 
+/// Coke that stands still in the DEM stage: a wedge at the bottom, below z = tip - slope |x|.
+struct DeadMan {
+  double tip = 0;    ///< m, height at x = 0
+  double slope = 1;  ///< 1, fall of its flanks over |x|
+
+  [[nodiscard]] bool contains(const Vector3& point) const { return point[2] < tip - slope * std::abs(point[0]); }
+};
+
 /// `dem.limits`: a run that exceeds one of them stops.
 struct DemLimits {
   double overlap = 0.3;       ///< of two parcels, over the smaller radius
@@ -204,8 +221,16 @@ struct DemLimits {
   double creep = 0.25;        ///< sinking of the bed at rest over its descent in the DEM stage
 };
 
+/// `dem.transient`: steps of the transient gas.
+struct TransientGas {
+  std::optional<double>
+      time_step;         ///< s, at most; absent: a block, cut by the gas's way through a cell and by the drag
+  double courant = 0.5;  ///< largest way of the gas in a step, in cells
+  int corrections = 2;   ///< of a whole step: density and drag, then pressure and fluxes (PIMPLE's outer ones)
+};
+
 struct DemSettings {
-  enum class GasModel { none, quasi_steady };
+  enum class GasModel { none, frozen, quasi_steady, transient };
   enum class Stop { fields_converged, duration };
   enum class VoidFraction { divided, smoothed };
   std::string engine = "liggghts";
@@ -220,6 +245,7 @@ struct DemSettings {
   double block = 0.05;              ///< s, coupling block: gas, removal, charging and checkpoints happen between blocks
   VoidFraction void_fraction = VoidFraction::divided;  ///< how parcels are spread over cells
   double smoothing_length = 0;                         ///< m, width of the smoothing (smoothed)
+  TransientGas transient;
   DemLimits limits;
 };
 
@@ -302,6 +328,7 @@ struct Campaign {
   Initial initial;
   Charging charging;
   std::vector<Raceway> raceways;
+  std::optional<DeadMan> dead_man;
   double descent_rate = 0;  ///< m/s, downwards, at the stock line
   DemSettings dem;
   TracerSettings tracer;

@@ -264,7 +264,9 @@ Contacts read_contacts(const Section& section, const std::vector<Species>& speci
   section.read("youngs_modulus", contacts.youngs_modulus);
   section.read("wall_youngs_modulus", contacts.wall_youngs_modulus);
   section.read("poisson_ratio", contacts.poisson_ratio);
+  section.read("rolling_damping", contacts.rolling_damping);
   section.read("stiffness", contacts.stiffness);
+  section.read("stiffness_of", contacts.stiffness_of, words::stiffness_of);
   section.read("tangential_ratio", contacts.tangential_ratio);
   for (const auto& [key, value] : section.section("pairs").members().items()) {
     const Section item(&value);
@@ -333,6 +335,10 @@ DemSettings read_dem(const Section& section, bool gas) {
   section.read("block", dem.block);
   section.read("void_fraction", dem.void_fraction, words::void_fraction);
   section.need("smoothing_length", dem.smoothing_length);
+  const auto transient = section.section("transient");
+  transient.read("time_step", dem.transient.time_step);
+  transient.read("courant", dem.transient.courant);
+  transient.read("corrections", dem.transient.corrections);
   const auto limits = section.section("limits");
   limits.read("overlap", dem.limits.overlap);
   limits.read("wall_overlap", dem.limits.wall_overlap);
@@ -459,6 +465,11 @@ Campaign campaign_from_document(const YamlDocument& document) {
   }
   campaign.charging = read_charging(root.section("charging"));
   for (const auto& item : root.list("raceways")) campaign.raceways.push_back(read_raceway(item));
+  if (const auto dead_man = root.section("dead_man"); dead_man.present()) {
+    campaign.dead_man.emplace();
+    dead_man.need("tip", campaign.dead_man->tip);
+    dead_man.read("slope", campaign.dead_man->slope);
+  }
   root.need("descent_rate", campaign.descent_rate);
   campaign.dem = read_dem(root.section("dem"), campaign.scene.gas.has_value());
   campaign.tracer = read_tracer(root.section("tracer"), campaign.scene.gas.has_value());

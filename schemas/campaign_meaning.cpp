@@ -141,6 +141,15 @@ void check_raceways(Context& context) {
   }
 }
 
+void check_dead_man(Context& context) {
+  const auto& campaign = context.campaign;
+  if (!context.shaped || !context.has("dead_man.tip")) return;
+  if (campaign.dead_man->tip <= campaign.bottom() || campaign.dead_man->tip >= campaign.charging.stock_line) {
+    context.add("dead_man.tip", "{} m is not between the bottom, {} m, and the stock line, {} m",
+                campaign.dead_man->tip, campaign.bottom(), campaign.charging.stock_line);
+  }
+}
+
 void check_stages(Context& context) {
   const auto& campaign = context.campaign;
   const auto& dem = campaign.dem;
@@ -149,6 +158,8 @@ void check_stages(Context& context) {
                 "relaxation ({} s) and averaging window ({} s) do not fit into the longest time of the stage, {} s",
                 dem.relaxation, dem.window, dem.at_most);
   }
+  if (context.has("dem.transient") && dem.gas != DemSettings::GasModel::transient)
+    context.add("dem.transient", "only the transient gas makes steps of its own (dem.gas: transient)");
   if (dem.block > dem.window)
     context.add("dem.block", "the block of {} s is longer than the averaging window, {} s", dem.block, dem.window);
   if (dem.time_step && *dem.time_step > dem.block)
@@ -210,6 +221,7 @@ void check_meaning(const Campaign& campaign, YamlDocument& document) {
   meaning::check_gas(context);
   meaning::check_charging(context);
   meaning::check_raceways(context);
+  meaning::check_dead_man(context);
   meaning::check_stages(context);
   meaning::check_strategy(context);
   meaning::check_launch(context);

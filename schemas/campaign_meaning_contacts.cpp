@@ -13,6 +13,10 @@ void check_contacts(Context& context) {
   }
   const auto& contacts = context.campaign.contacts;
   const bool hertz = contacts.model == Contacts::Model::hertz;
+  if (hertz && context.has("contacts.stiffness_of"))
+    context.add("contacts.stiffness_of", "only linear springs have a stiffness (contacts.model: linear-spring)");
+  if (contacts.rolling_model != Contacts::Rolling::epsd && context.has("contacts.rolling_damping"))
+    context.add("contacts.rolling_damping", "only the model epsd damps rolling (contacts.rolling_model: epsd)");
   constexpr double least_modulus = 5e6;  // LIGGGHTS accepts no softer grain
   for (const auto& [key, modulus] : {std::pair{"contacts.youngs_modulus", contacts.youngs_modulus},
                                      std::pair{"contacts.wall_youngs_modulus", contacts.wall_youngs_modulus}}) {

@@ -17,8 +17,12 @@ inline constexpr Table<Inlet::Side, 3> inlet_side{
     {{Inlet::Side::left, "left"}, {Inlet::Side::right, "right"}, {Inlet::Side::bottom, "bottom"}}};
 inline constexpr Table<Contacts::Model, 2> contact_model{
     {{Contacts::Model::hertz, "hertz"}, {Contacts::Model::linear_spring, "linear-spring"}}};
-inline constexpr Table<Contacts::Rolling, 3> rolling_model{
-    {{Contacts::Rolling::none, "none"}, {Contacts::Rolling::cdt, "cdt"}, {Contacts::Rolling::epsd2, "epsd2"}}};
+inline constexpr Table<Contacts::Rolling, 4> rolling_model{{{Contacts::Rolling::none, "none"},
+                                                            {Contacts::Rolling::cdt, "cdt"},
+                                                            {Contacts::Rolling::epsd, "epsd"},
+                                                            {Contacts::Rolling::epsd2, "epsd2"}}};
+inline constexpr Table<Contacts::StiffnessOf, 2> stiffness_of{
+    {{Contacts::StiffnessOf::grain, "grain"}, {Contacts::StiffnessOf::parcel, "parcel"}}};
 inline constexpr Table<DragLaw, 7> drag{{{DragLaw::ergun, "ergun"},
                                          {DragLaw::wen_yu, "wen-yu"},
                                          {DragLaw::gidaspow, "gidaspow"},
@@ -30,8 +34,10 @@ inline constexpr Table<Raceway::Removal, 2> raceway_removal{
     {{Raceway::Removal::rate, "rate"}, {Raceway::Removal::keep_void, "keep-void"}}};
 inline constexpr Table<DemSettings::VoidFraction, 2> void_fraction{
     {{DemSettings::VoidFraction::divided, "divided"}, {DemSettings::VoidFraction::smoothed, "smoothed"}}};
-inline constexpr Table<DemSettings::GasModel, 2> dem_gas{
-    {{DemSettings::GasModel::none, "none"}, {DemSettings::GasModel::quasi_steady, "quasi-steady"}}};
+inline constexpr Table<DemSettings::GasModel, 4> dem_gas{{{DemSettings::GasModel::none, "none"},
+                                                          {DemSettings::GasModel::frozen, "frozen"},
+                                                          {DemSettings::GasModel::quasi_steady, "quasi-steady"},
+                                                          {DemSettings::GasModel::transient, "transient"}}};
 inline constexpr Table<DemSettings::Stop, 2> dem_stop{
     {{DemSettings::Stop::fields_converged, "fields-converged"}, {DemSettings::Stop::duration, "duration"}}};
 inline constexpr Table<TracerSettings::Displacement, 4> displacement{

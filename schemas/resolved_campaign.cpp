@@ -101,8 +101,12 @@ Json contacts_json(const Contacts& contacts) {
             {"youngs_modulus", contacts.youngs_modulus},
             {"wall_youngs_modulus", contacts.wall_youngs_modulus},
             {"poisson_ratio", contacts.poisson_ratio}};
+  if (contacts.rolling_model == Contacts::Rolling::epsd) json["rolling_damping"] = contacts.rolling_damping;
   if (contacts.stiffness > 0) json["stiffness"] = contacts.stiffness;
-  if (contacts.model == Contacts::Model::linear_spring) json["tangential_ratio"] = contacts.tangential_ratio;
+  if (contacts.model == Contacts::Model::linear_spring) {
+    json["stiffness_of"] = word(words::stiffness_of, contacts.stiffness_of);
+    json["tangential_ratio"] = contacts.tangential_ratio;
+  }
   for (const auto& [name, pair] : contacts.pairs) {
     json["pairs"][name] = {{"restitution", pair.restitution}, {"friction", pair.friction}, {"rolling", pair.rolling}};
   }
@@ -135,19 +139,26 @@ Json raceways_json(const std::vector<Raceway>& raceways) {
 }
 
 Json dem_json(const DemSettings& dem) {
-  return {{"engine", dem.engine},
-          {"gas", word(words::dem_gas, dem.gas)},
-          {"stop", {{"when", word(words::dem_stop, dem.stop)}, {"at_most", dem.at_most}}},
-          {"relaxation", dem.relaxation},
-          {"window", dem.window},
-          {"standard_error", dem.standard_error},
-          {"time_step", or_auto(dem.time_step)},
-          {"rayleigh_fraction", dem.rayleigh_fraction},
-          {"block", dem.block},
-          {"void_fraction", word(words::void_fraction, dem.void_fraction)},
-          {"smoothing_length", dem.smoothing_length},
-          {"limits",
-           {{"overlap", dem.limits.overlap}, {"wall_overlap", dem.limits.wall_overlap}, {"creep", dem.limits.creep}}}};
+  Json json{
+      {"engine", dem.engine},
+      {"gas", word(words::dem_gas, dem.gas)},
+      {"stop", {{"when", word(words::dem_stop, dem.stop)}, {"at_most", dem.at_most}}},
+      {"relaxation", dem.relaxation},
+      {"window", dem.window},
+      {"standard_error", dem.standard_error},
+      {"time_step", or_auto(dem.time_step)},
+      {"rayleigh_fraction", dem.rayleigh_fraction},
+      {"block", dem.block},
+      {"void_fraction", word(words::void_fraction, dem.void_fraction)},
+      {"smoothing_length", dem.smoothing_length},
+      {"limits",
+       {{"overlap", dem.limits.overlap}, {"wall_overlap", dem.limits.wall_overlap}, {"creep", dem.limits.creep}}}};
+  if (dem.gas == DemSettings::GasModel::transient) {
+    json["transient"] = {{"time_step", or_auto(dem.transient.time_step)},
+                         {"courant", dem.transient.courant},
+                         {"corrections", dem.transient.corrections}};
+  }
+  return json;
 }
 
 Json tracer_json(const TracerSettings& tracer) {
@@ -225,6 +236,7 @@ Json resolved_json(const Campaign& campaign) {
                       {"temperature", charging.temperature},
                       {"hopper_height", charging.hopper_height}};
   json["raceways"] = raceways_json(campaign.raceways);
+  if (campaign.dead_man) json["dead_man"] = {{"tip", campaign.dead_man->tip}, {"slope", campaign.dead_man->slope}};
   json["descent_rate"] = campaign.descent_rate;
   json["dem"] = dem_json(campaign.dem);
   json["tracer"] = tracer_json(campaign.tracer);

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/projection/bed_state.hpp"
 #include "schemas/files.hpp"
+#include "stage_dem/bed_sample.hpp"
 #include "stage_dem/bed_surface.hpp"
 #include "stage_dem/bed_watch.hpp"
+#include "stage_dem/coupled_block.hpp"
 #include "stage_dem/dem_files.hpp"
 #include "stage_dem/dem_limits.hpp"
 #include "stage_dem/parcels.hpp"
@@ -60,8 +63,7 @@ DemStage::DemStage(const Task& task, const std::filesystem::path& folder, FoamCa
       books_at_window_(task.campaign),
       averages_(mesh.cells(), batch_seconds(task.campaign.dem.window)),
       species_averages_(task.campaign.species.size() > 1 ? task.campaign.species.size() : 0, averages_) {
-  if (campaign_.scene.gas && campaign_.dem.gas == DemSettings::GasModel::quasi_steady)
-    gas_.emplace(foam, mesh, campaign_, temperature_.gas());
+  gas_ = make_dem_gas(foam, mesh, campaign_, temperature_.gas(), communicator);
 }
 
 ExitCode DemStage::run() {
@@ -81,7 +83,7 @@ ExitCode DemStage::run() {
     DemFiles(*this).write_checkpoint_when_due();
   }
   begin_block();  // the last packing on the mesh, its sample and the gas through it
-  if (gas_) gas_->update(solids_, 0, true);
+  if (gas_) gas_->update(solids_, engine_->owned(), 0, true);
   report_progress(true);
   DemFiles(*this).write_result();
   return ExitCode::done;
@@ -115,6 +117,7 @@ void DemStage::enter(DemPhase phase) {
 void DemStage::begin_block() {
   if (state_.phase == DemPhase::building) return;
   const auto owned = engine_->owned();
+  hold_dead_man(owned);
   {
     const PartTimer timer(state_.wall_parts, "projection");
     solids_.divide(owned);
@@ -122,13 +125,22 @@ void DemStage::begin_block() {
     const bool in_window = state_.phase == DemPhase::averaging && state_.phase_time > 0;
     if (in_window || state_.phase == DemPhase::done) sample();
   }
-  if (!gas_ || state_.phase == DemPhase::done) return;
+  if (!gas_ || couples_within_blocks() || state_.phase == DemPhase::done) return;
   {
     const PartTimer timer(state_.wall_parts, "gas");
-    gas_->update(solids_, state_.last_block);
+    gas_->update(solids_, owned, state_.last_block);
   }
   const PartTimer timer(state_.wall_parts, "projection");
-  engine_->set_forces(gas_->forces(solids_, owned, communicator_));
+  engine_->set_forces(gas_->forces(solids_, owned));
+}
+
+void DemStage::hold_dead_man(const std::vector<Parcel>& owned) {
+  if (!campaign_.dead_man || state_.phase == DemPhase::settling) return;
+  std::vector<bool> held(owned.size());
+  for (std::size_t i = 0; i < owned.size(); ++i)
+    held[i] = campaign_.dead_man->contains(owned[i].position) &&
+              !campaign_.species[static_cast<std::size_t>(owned[i].species)].softening;
+  engine_->hold(held);
 }
 
 void DemStage::advance_block() {
@@ -143,7 +155,15 @@ void DemStage::advance_block() {
     steps = regrowth_steps;
   }
   engine_->set_time_step(step);
-  if (engine_->count() > 0) engine_->advance(steps);
+  if (engine_->count() > 0) {
+    if (couples_within_blocks() && state_.phase != DemPhase::building) {
+      const double gas_seconds = advance_with_gas(*engine_, solids_, *gas_, step, steps);
+      state_.wall_parts["gas"] += gas_seconds;
+      state_.wall_parts["liggghts"] -= gas_seconds;
+    } else {
+      engine_->advance(steps);
+    }
+  }
   state_.last_block = step * static_cast<double>(steps);
   state_.time += state_.last_block;
   state_.phase_time += state_.last_block;
@@ -206,40 +226,10 @@ bool DemStage::window_complete() const {
 }
 
 void DemStage::sample() {
-  constexpr std::size_t columns = 5;
-  const auto owned = engine_->owned();
-  const auto& falling = charging_.state().falling;
-  const std::size_t species = campaign_.species.size();
-  const auto sums = solids_.sums(columns * species, [&](std::size_t i, std::span<double> all) {
-    if (falling.contains(owned[i].id)) return false;
-    std::fill(all.begin(), all.end(), 0.0);
-    const auto value = all.subspan(columns * static_cast<std::size_t>(owned[i].species), columns);
-    const double volume = material_volume(campaign_, owned[i]);
-    value[0] = volume;
-    value[1] = contact_volume(owned[i]);
-    for (std::size_t k = 0; k < 3; ++k) value[2 + k] = volume * owned[i].displacement[k] / state_.last_block;
-    return true;
-  });
-  const std::size_t cells = mesh_.cells();
-  const BedSample nothing{std::vector<double>(cells), std::vector<double>(cells), std::vector<double>(3 * cells)};
-  std::vector<BedSample> of_species(species, nothing);
-  BedSample all = nothing;
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    for (std::size_t s = 0; s < species; ++s) {
-      const double* row = &sums[(cell * species + s) * columns];
-      BedSample& one = of_species[s];
-      one.fraction[cell] = row[0] / mesh_.cell_volume[cell];
-      one.contact_fraction[cell] = row[1] / mesh_.cell_volume[cell];
-      all.fraction[cell] += one.fraction[cell];
-      all.contact_fraction[cell] += one.contact_fraction[cell];
-      for (std::size_t k = 0; k < 3; ++k) {
-        one.flux[3 * cell + k] = row[2 + k] / mesh_.cell_volume[cell];
-        all.flux[3 * cell + k] += one.flux[3 * cell + k];
-      }
-    }
-  }
-  averages_.add(all, state_.last_block);
-  for (std::size_t s = 0; s < species_averages_.size(); ++s) species_averages_[s].add(of_species[s], state_.last_block);
+  const auto samples =
+      sample_bed(campaign_, mesh_, solids_, engine_->owned(), charging_.state().falling, state_.last_block);
+  averages_.add(sum_of(samples), state_.last_block);
+  for (std::size_t s = 0; s < species_averages_.size(); ++s) species_averages_[s].add(samples[s], state_.last_block);
 }
 
 double DemStage::temperature_at(const Parcel& parcel) const {

@@ -14,8 +14,8 @@
 #include "schemas/task.hpp"
 #include "stage_dem/batch_charging.hpp"
 #include "stage_dem/bed_builder.hpp"
+#include "stage_dem/dem_gas.hpp"
 #include "stage_dem/dem_state.hpp"
-#include "stage_dem/gas_coupling.hpp"
 #include "stage_dem/mass_books.hpp"
 #include "stage_dem/ore_temperature.hpp"
 #include "stage_dem/raceway_removal.hpp"
@@ -44,6 +44,12 @@ class DemStage {
   void next_phase();
   void enter(DemPhase phase);
 
+  /// Whether the gas makes steps of its own within a block.
+  [[nodiscard]] bool couples_within_blocks() const {
+    return gas_ && campaign_.dem.gas == DemSettings::GasModel::transient;
+  }
+
+  void hold_dead_man(const std::vector<Parcel>& owned);
   void sample();
   void shrink_or_regrow();
   void remove_parcels();
@@ -80,7 +86,7 @@ class DemStage {
   DemState state_;
   OreTemperature temperature_;
   SolidsOnMesh solids_;
-  std::optional<GasCoupling> gas_;
+  std::unique_ptr<DemGas> gas_;  ///< null: none
   BedBuilder builder_;
   BatchCharging charging_;
   RacewayRemoval raceways_;

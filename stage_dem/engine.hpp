@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,13 +40,20 @@ class Engine {
 
   /// One block of `steps` time steps, begun with a full set-up.
   /// @throws Failure diverged: a parcel left the domain or its position is no number (names step and parcel)
-  virtual void advance(long steps) = 0;
+  /// @param couple where given, is called before the first step, and again after as many steps as it returned (at least
+  /// 1); it may call `owned` and `set_forces`, and the forces it sets act on the steps that follow and on no other:
+  /// their impulse is force x time to round-off
+  virtual void advance(long steps, const std::function<long()>& couple = {}) = 0;
 
   /// Steps done since the engine began.
   [[nodiscard]] virtual long step() const = 0;
 
   /// Forces from the gas, in the order of `owned`; they stay until they are set again.
   virtual void set_forces(const std::vector<ParcelForce>& forces) = 0;
+
+  /// Which parcels stand still from now on, in the order of `owned`: neither forces nor contacts move them; the others
+  /// go on (again).
+  virtual void hold(const std::vector<bool>& held) = 0;
 
   /// Sets the time step, s.
   virtual void set_time_step(double seconds) = 0;

@@ -37,14 +37,20 @@ double change_of_void(const std::vector<double>& now, const std::vector<double>&
 }  // namespace
 
 GasCoupling::GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign,
-                         std::vector<double> gas_temperature)
-    : mesh_(mesh), campaign_(campaign), flow_(foam, mesh, campaign), temperature_(std::move(gas_temperature)) {}
+                         std::vector<double> gas_temperature, MPI_Comm communicator)
+    : mesh_(mesh),
+      campaign_(campaign),
+      communicator_(communicator),
+      flow_(foam, mesh, campaign),
+      temperature_(std::move(gas_temperature)) {}
 
-void GasCoupling::update(const SolidsOnMesh& solids, double seconds, bool in_any_case) {
+void GasCoupling::update(const SolidsOnMesh& solids, const std::vector<Parcel>& /*owned*/, double seconds,
+                         bool in_any_case) {
   bed_ = bed_state(mesh_, campaign_, solids.species_volume());
   cells_at_floor_ = bed_.cells_at_floor;
   seconds_since_ += seconds;
   const bool first = void_solved_.empty();
+  if (!first && campaign_.dem.gas == DemSettings::GasModel::frozen) return;
   if (!first && !in_any_case && seconds_since_ < longest_between - same_time &&
       change_of_void(bed_.void_fraction, void_solved_, solids.volume()) < void_change_allowed)
     return;
@@ -82,8 +88,7 @@ double GasCoupling::slip_damping(const Parcel& parcel, std::size_t cell, double 
   return material_volume(campaign_, parcel) * mesh_.cell_volume[cell] / solids_volume * void_fraction * resistance;
 }
 
-std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
-                                             MPI_Comm communicator) {
+std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned) {
   std::vector<ParcelForce> forces(owned.size());
   const auto& volume = solids.volume();
   std::array<double, 3> total{};
@@ -110,7 +115,7 @@ std::vector<ParcelForce> GasCoupling::forces(const SolidsOnMesh& solids, const s
       force.damping = std::max(force.damping, slip_damping(owned[i], centre, volume[centre]));
     for (std::size_t k = 0; k < 3; ++k) total[k] += force.force[k];
   }
-  MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+  MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
   double scale = 0;
   for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
     if (volume[cell] <= 0) continue;

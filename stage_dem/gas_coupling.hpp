@@ -1,11 +1,11 @@
 #pragma once
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "physics/gas/bed_gas.hpp"
 #include "physics/projection/bed_state.hpp"
-#include "schemas/hdf.hpp"
-#include "stage_dem/solids_on_mesh.hpp"
+#include "stage_dem/dem_gas.hpp"
 
 namespace cupola {
 
@@ -19,31 +19,29 @@ namespace cupola {
 /// parcel that moves against the gas, or falls through gas at rest, is damped more: K_i is at least (V_i/alpha) e r(e
 /// |v_i - u|) in the cell of its centre, r the drag law's resistance and e the void fraction, which gives the grain's
 /// terminal velocity.  Between the two (a fall against a flow of about the same speed) the drag comes out too small, by
-/// half at most.
-class GasCoupling {
+/// half at most.  With `dem.gas: frozen` the flow is solved once and kept; the forces follow the parcels in it.
+class GasCoupling final : public DemGas {
  public:
-  GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, std::vector<double> gas_temperature);
+  GasCoupling(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign, std::vector<double> gas_temperature,
+              MPI_Comm communicator);
 
   /// Solves the flow again where 0.25 s have gone by since the last solution, in which a bed drawn down fast sinks by a
   /// fraction of a parcel, or where the void fraction has changed by more than 0.15, rms over cells with solids.  The
   /// criterion sees the state alone, so that a resumed run decides the same.
-  /// @param seconds of the block just done  @param in_any_case solve even where nothing has changed
-  void update(const SolidsOnMesh& solids, double seconds, bool in_any_case = false);
-
-  /// Forces on the parcels last divided, in their order.
-  [[nodiscard]] std::vector<ParcelForce> forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned,
-                                                MPI_Comm communicator);
+  void update(const SolidsOnMesh& solids, const std::vector<Parcel>& owned, double seconds,
+              bool in_any_case = false) override;
+  [[nodiscard]] std::vector<ParcelForce> forces(const SolidsOnMesh& solids, const std::vector<Parcel>& owned) override;
+  [[nodiscard]] double longest_step() const override { return std::numeric_limits<double>::infinity(); }
 
   /// |sum of forces + integral of grad p over cells with solids| over the sum of |V grad p|, largest of all blocks.
-  [[nodiscard]] double momentum_residual() const { return momentum_residual_; }
-  [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }  ///< Pa, all cells
-  /// Interstitial velocity, cells x 3, m/s.
-  [[nodiscard]] std::vector<double> velocity() const;
-  /// Numbers for the report: flow solves, cells at the void floor, inlets, inertia left out.
-  [[nodiscard]] nlohmann::json summary() const;
+  [[nodiscard]] double momentum_residual() const override { return momentum_residual_; }
+  [[nodiscard]] const std::vector<double>& pressure() const override { return pressure_; }
+  [[nodiscard]] std::vector<double> velocity() const override;
+  /// Flow solves, cells at the void floor, inlets, inertia left out.
+  [[nodiscard]] nlohmann::json summary() const override;
 
-  void save(HdfWriter& file) const;
-  void load(const HdfReader& file);
+  void save(HdfWriter& file) const override;
+  void load(const HdfReader& file) override;
 
  private:
   const BedMesh& mesh_;
@@ -52,6 +50,7 @@ class GasCoupling {
   [[nodiscard]] double slip_damping(const Parcel& parcel, std::size_t cell, double solids_volume) const;
   [[nodiscard]] double density(std::size_t cell) const;  ///< kg/m3, of the gas
 
+  MPI_Comm communicator_;
   DarcyForchheimer flow_;
   BedState bed_;                     ///< of the last `update`
   std::vector<double> temperature_;  ///< K, all cells

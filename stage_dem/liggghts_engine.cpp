@@ -8,6 +8,7 @@
 #include <liggghts/domain.h>
 #include <liggghts/fix.h>
 #include <liggghts/fix_mesh.h>
+#include <liggghts/group.h>
 #include <liggghts/integrate.h>
 #include <liggghts/lammps.h>
 #include <liggghts/library.h>
@@ -82,7 +83,7 @@ class LiggghtsEngine final : public Engine {
     return parcels;
   }
 
-  void advance(long steps) override {
+  void advance(long steps, const std::function<long()>& couple) override {
     auto& atom = *liggghts_->atom;
     const std::int64_t expected = count();
     double** begin = per_parcel_vector("block_begin");
@@ -91,7 +92,7 @@ class LiggghtsEngine final : public Engine {
       before[static_cast<std::size_t>(i)] = atom.tag[i];
       for (int k = 0; k < 3; ++k) begin[i][k] = atom.x[i][k];
     }
-    run_on(steps);
+    run_on(steps, couple);
     check_all_there(expected, before);
   }
 
@@ -106,6 +107,16 @@ class LiggghtsEngine final : public Engine {
       damping[i] = forces[i].damping;
     }
     check_drag(forces);
+  }
+
+  void hold(const std::vector<bool>& held) override {
+    auto& atom = *liggghts_->atom;
+    const int bit = held_bit();
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      atom.mask[i] = held[i] ? atom.mask[i] | bit : atom.mask[i] & ~bit;
+      if (!held[i]) continue;
+      for (int k = 0; k < 3; ++k) atom.v[i][k] = atom.omega[i][k] = 0;
+    }
   }
 
   void set_time_step(double seconds) override { liggghts_.command(fmt::format("timestep {:.17g}", seconds)); }
@@ -170,12 +181,15 @@ class LiggghtsEngine final : public Engine {
     return static_cast<double*>(lammps_extract_fix(liggghts_.operator->(), name, 1, 1, 0, 0));
   }
 
+  /// Of the parcels' masks, for those that stand still.
+  [[nodiscard]] int held_bit() const { return liggghts_->group->bitmask[liggghts_->group->find("held")]; }
+
   /// A run with a full set-up that goes on as if there had been none.  The set-up evaluates the contacts a second time
   /// at the same positions, but with the velocities after the step instead of those in its middle and without adding to
   /// the tangential springs.  A spring at Coulomb's bound may then look as if it were below it, and its dashpot, which
   /// LIGGGHTS does not limit, acts with the whole slip.  So the first half of the first step uses what the contacts
   /// gave in the last step before; the set-up's own values stay for parcels that were not there.
-  void run_on(long steps) {
+  void run_on(long steps, const std::function<long()>& couple) {
     auto& update = *liggghts_->update;
     update.whichflag = 1;
     update.nsteps = static_cast<int>(steps);
@@ -186,12 +200,33 @@ class LiggghtsEngine final : public Engine {
       update.integrate->setup();
       restore_contact_forces();
       liggghts_->timer->init();
-      update.integrate->run(static_cast<int>(steps));
+      for (long left = steps; left > 0;) {
+        const long now = couple ? std::clamp(with_new_forces(couple), 1L, left) : left;
+        update.integrate->run(static_cast<int>(now));
+        left -= now;
+      }
       keep_contact_forces();
       update.integrate->cleanup();
     });
     update.whichflag = 0;
     update.firststep = update.laststep = update.beginstep = update.endstep = 0;
+  }
+
+  /// Calls what sets new forces of the gas, and exchanges the old ones for them in what the next step begins with.
+  long with_new_forces(const std::function<long()>& couple) {
+    const auto& atom = *liggghts_->atom;
+    const int held = held_bit();
+    double** force = per_parcel_vector("dragforce");
+    const auto exchange = [&](double sign) {
+      for (int i = 0; i < atom.nlocal; ++i) {
+        if ((atom.mask[i] & held) != 0) continue;
+        for (int k = 0; k < 3; ++k) atom.f[i][k] += sign * force[i][k];
+      }
+    };
+    exchange(-1);
+    const long steps = couple();
+    exchange(1);
+    return steps;
   }
 
   /// Of the last evaluation, parcels and walls, before gravity and gas: N, parcels x 3.
@@ -215,10 +250,11 @@ class LiggghtsEngine final : public Engine {
 
   void restore_contact_forces() {
     auto& atom = *liggghts_->atom;
+    const int held = held_bit();
     double** kept = per_parcel_vector("last_contact");
     double** force = contact_force();
     for (int i = 0; i < atom.nlocal; ++i) {
-      if (kept[i][6] == 0) continue;
+      if (kept[i][6] == 0 || (atom.mask[i] & held) != 0) continue;
       for (int k = 0; k < 3; ++k) {
         atom.f[i][k] += kept[i][k] - force[i][k];
         atom.torque[i][k] = kept[i][3 + k];

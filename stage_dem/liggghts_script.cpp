@@ -41,6 +41,7 @@ std::string contact_model(const Contacts& contacts) {
   std::string model = contacts.model == Contacts::Model::hertz ? "hertz" : "hooke/stiffness";
   model += " tangential history";
   if (contacts.rolling_model == Contacts::Rolling::cdt) model += " rolling_friction cdt";
+  if (contacts.rolling_model == Contacts::Rolling::epsd) model += " rolling_friction epsd";
   if (contacts.rolling_model == Contacts::Rolling::epsd2) model += " rolling_friction epsd2";
   return model;
 }
@@ -86,10 +87,12 @@ ContactPair contact_pair(const Campaign& campaign, std::size_t first, std::size_
 
 double pair_stiffness(const Campaign& campaign, std::size_t first, std::size_t second) {
   const std::size_t wall = campaign.species.size();
-  const auto coarse_graining = [&](std::size_t i) { return campaign.species[i].coarse_graining; };
+  const auto factor = [&](std::size_t i) {
+    return campaign.contacts.stiffness_factor(campaign.species[i].coarse_graining);
+  };
   if (first == wall) return campaign.contacts.stiffness;
-  if (second == wall) return coarse_graining(first) * campaign.contacts.stiffness;
-  return parcel_pair_stiffness(campaign.contacts.stiffness, coarse_graining(first), coarse_graining(second));
+  if (second == wall) return factor(first) * campaign.contacts.stiffness;
+  return parcel_pair_stiffness(campaign.contacts.stiffness, factor(first), factor(second));
 }
 
 double pair_damping(double stiffness, double reduced_mass, double restitution) {
@@ -136,6 +139,9 @@ std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::s
   if (contacts.rolling_model != Contacts::Rolling::none)
     script.push_back(pair_property(campaign, "coefficientRollingFriction",
                                    [&](std::size_t i, std::size_t j) { return contact_pair(campaign, i, j).rolling; }));
+  if (contacts.rolling_model == Contacts::Rolling::epsd)
+    script.push_back(pair_property(campaign, "coefficientRollingViscousDamping",
+                                   [&](std::size_t, std::size_t) { return contacts.rolling_damping; }));
   if (contacts.model == Contacts::Model::hertz) {
     script.push_back(pair_property(campaign, "coefficientRestitution", restitution));
     script.push_back(type_property(campaign, "youngsModulus", contacts.youngs_modulus, contacts.wall_youngs_modulus));
@@ -159,6 +165,9 @@ std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::s
       "fix coupling all couple/cfd couple_every 0 mpi",
       "fix gas_force all couple/cfd/force/implicit",
       "fix block_begin all property/atom block_begin vector yes no no 0. 0. 0.",
+      // Parcels that stand still; none has the type of the walls, so that the group begins empty.
+      fmt::format("group held type {}", campaign.species.size() + 1),
+      "fix stand_still held freeze",
       "fix integration all nve/sphere",
       "thermo_style custom step atoms ke",
       "thermo 1000000000",

@@ -21,8 +21,9 @@ std::vector<std::string> liggghts_physics(const Campaign& campaign, const std::s
 /// Contact of two species, or of a species and the wall (`second` = number of species). @throws Failure wrong_input
 ContactPair contact_pair(const Campaign& campaign, std::size_t first, std::size_t second);
 
-/// Normal stiffness of a pair of parcels with linear springs (MODEL 7): the parcel's is coarse graining times the
-/// grain's, two in series: 2 n_i n_j/(n_i + n_j) K; against a wall n_i K, N/m.
+/// Normal stiffness of a pair of parcels with linear springs (MODEL 7): the parcel's is n times the stated one, n its
+/// coarse graining (1 where the stated one is the parcel's), two in series: 2 n_i n_j/(n_i + n_j) K; against a wall
+/// n_i K, N/m.
 double pair_stiffness(const Campaign& campaign, std::size_t first, std::size_t second);
 
 /// Damping of a linear spring that gives the restitution e (seed 004 eq. 15): -2 m ln(e)/t, t = sqrt(pi^2 + ln^2 e)

@@ -40,15 +40,29 @@ dem_proof(03_packing_of_grains dem_proofs Packing.Grains* 1)
 dem_proof(03_packing_of_furnace dem_proofs Packing.TheFurnaces* 1)
 dem_proof(03_packing_of_parcels dem_proofs Packing.ParcelsPack* 1)
 dem_proof(04_beverloo dem_proofs Hopper.Discharges* 1)
+dem_proof(04_angle_of_repose dem_proofs AngleOfRepose.* 1)
 dem_proof(09_impulse_1 dem_proofs Impulse.* 1)
 dem_proof(09_impulse_2 dem_proofs Impulse.* 2)
 dem_proof(11_coverage dem_proofs StandardErrors.* 1)
 
 # With the gas, on the mesh of a box.
-add_executable(dem_gas_proofs verification/dem/proof_06_ergun.cpp verification/dem/proof_scene.cpp unit/dem/box_scene.cpp)
+add_executable(dem_gas_proofs verification/dem/proof_05_terminal_velocity.cpp
+                              verification/dem/proof_06_ergun.cpp
+                              verification/dem/proof_07_fluidisation.cpp
+                              verification/dem/proof_09_gas_momentum.cpp
+                              verification/dem/gas_scene.cpp
+                              verification/dem/proof_scene.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
 cupola_own_code(dem_gas_proofs)
-target_link_libraries(dem_gas_proofs PRIVATE cupola_dem_stage cupola_foam_environment GTest::gtest GTest::gtest_main)
-dem_proof(06_ergun dem_gas_proofs ErgunBed.* 1)
+target_link_libraries(dem_gas_proofs PRIVATE cupola_dem_stage cupola_foam_environment GTest::gtest)
+dem_proof(05_quasi_steady dem_gas_proofs *TerminalVelocity*/0 1)
+dem_proof(05_transient dem_gas_proofs *TerminalVelocity*/1 1)
+dem_proof(06_quasi_steady dem_gas_proofs *ErgunBed*/0 1)
+dem_proof(06_transient dem_gas_proofs *ErgunBed*/1 1)
+dem_proof(07_fluidisation dem_gas_proofs Fluidisation.OfParcels* 1)
+dem_proof(07_full dem_gas_proofs Fluidisation.OfGrains* 1)
+set_tests_properties(dem_proof_07_full PROPERTIES LABELS long TIMEOUT 3600)
+dem_proof(09_gas_1 dem_gas_proofs GasMomentum.* 1)
+dem_proof(09_gas_2 dem_gas_proofs GasMomentum.Given* 2)
 
 # The program on the tiny slot, some seconds of it.
 cupola_test(dem_proof_10 LABEL long SOURCES verification/dem/proof_10_ranks_test.cpp LIBRARIES cupola_schemas)

@@ -11,8 +11,9 @@ inline double reduced_mass(double mass_1, double mass_2) { return mass_1 * mass_
 /// two unequal springs count with their harmonic mean, 2 n1 n2/(n1 + n2) K.  So the overlap over the radius in a
 /// collision at one speed does not depend on the coarse graining.
 /// @param stiffness K of the grain, N/m
-inline double parcel_pair_stiffness(double stiffness, double coarse_graining_1, double coarse_graining_2) {
-  return 2 * coarse_graining_1 * coarse_graining_2 / (coarse_graining_1 + coarse_graining_2) * stiffness;
+/// @param factor_1, factor_2 n of the two parcels
+inline double parcel_pair_stiffness(double stiffness, double factor_1, double factor_2) {
+  return 2 * factor_1 * factor_2 / (factor_1 + factor_2) * stiffness;
 }
 
 /// Duration of a head-on collision with a linear spring and dashpot, s: sqrt(pi^2 + ln^2 e) sqrt(m12/K).

@@ -25,9 +25,11 @@ double pair_collision_time(const Campaign& campaign, std::size_t first, std::siz
   const auto pair = campaign.contacts.pairs.find(one.name + "-" + other.name);
   const double restitution =
       pair != campaign.contacts.pairs.end() ? pair->second.restitution : ContactPair{}.restitution;
-  return collision_time(reduced_mass(parcel_mass(one), parcel_mass(other)),
-                        parcel_pair_stiffness(campaign.contacts.stiffness, one.coarse_graining, other.coarse_graining),
-                        restitution);
+  return collision_time(
+      reduced_mass(parcel_mass(one), parcel_mass(other)),
+      parcel_pair_stiffness(campaign.contacts.stiffness, campaign.contacts.stiffness_factor(one.coarse_graining),
+                            campaign.contacts.stiffness_factor(other.coarse_graining)),
+      restitution);
 }
 
 }  // namespace

@@ -8,6 +8,22 @@
 
 namespace cupola {
 
+namespace {
+
+std::string dem_gas_piece(const Campaign& campaign) {
+  const auto drag = drag_law_name(campaign.drag);
+  switch (campaign.dem.gas) {
+    case DemSettings::GasModel::frozen:
+      return fmt::format("frozen, {} drag: solved once through the settled bed (dem.gas is frozen)", drag);
+    case DemSettings::GasModel::transient:
+      return fmt::format("transient, compressible, {} drag: the bed moves with the gas (dem.gas is transient)", drag);
+    default:
+      return fmt::format("quasi-steady, {} drag: the gas adapts faster than the bed moves, one solution a block", drag);
+  }
+}
+
+}  // namespace
+
 std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::Parts& cost) {
   const bool gas = campaign.scene.gas.has_value();
   const bool heat = campaign.heat.has_value();
@@ -31,9 +47,7 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
         cost.contacts);
   piece("coarse graining", coarse,
         coarse ? "parcels stand for several grains (species.coarse_graining)" : "every grain is a parcel");
-  piece("gas in the DEM stage", dem_gas,
-        dem_gas ? fmt::format("quasi-steady, {} drag, one solution a block", drag_law_name(campaign.drag))
-                : (gas ? "dem.gas is none" : no_gas),
+  piece("gas in the DEM stage", dem_gas, dem_gas ? dem_gas_piece(campaign) : (gas ? "dem.gas is none" : no_gas),
         cost.dem_gas);
   const bool filtered = gas && campaign.filtered_drag.has_value();
   piece("drag of coarse parcels and cells", filtered,
@@ -42,6 +56,10 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
                                        campaign.filtered_drag->parcel_coefficient,
                                        campaign.filtered_drag->grid ? "corrected" : "not corrected")
                          : "filtered_drag is absent"));
+  piece("dead man", campaign.dead_man.has_value(),
+        campaign.dead_man
+            ? fmt::format("coke below z = {} m - {} |x| stands still", campaign.dead_man->tip, campaign.dead_man->slope)
+            : "dead_man is absent");
   const bool smoothed = campaign.dem.void_fraction == DemSettings::VoidFraction::smoothed;
   piece("smoothed void fraction", smoothed,
         smoothed ? fmt::format("over {} m in the DEM stage", campaign.dem.smoothing_length)

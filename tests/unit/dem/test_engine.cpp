@@ -238,6 +238,49 @@ TEST(Engine, AddingAParcelKeepsTagsAndTheOthers) {
   EXPECT_NEAR(found[5000].displacement[2], -0.5 * 9.81 * 1e-4, 1e-7);
 }
 
+TEST(Engine, HeldParcelsStandStillAndTheOthersGoOn) {
+  const Campaign campaign = box_campaign();
+  auto engine = settling_heap(campaign, 3);  // still falling
+  const auto is_held = [](const Parcel& parcel) { return parcel.id % 3 == 0; };
+  const auto push = [&](Engine& of) {
+    std::vector<bool> held;
+    std::vector<ParcelForce> forces;
+    for (const auto& parcel : of.owned()) {
+      held.push_back(is_held(parcel));
+      forces.push_back({{0.1 * parcel.mass, 0, 2 * 9.81 * parcel.mass}, 0});
+    }
+    of.hold(held);
+    of.set_forces(forces);
+  };
+  const auto before = everyone(*engine);
+  push(*engine);
+  std::vector<std::uint8_t> bytes;
+  for (int block = 0; block < 4; ++block) {
+    engine->advance(100);
+    engine->exchange();
+    if (block == 1) bytes = engine->snapshot();
+  }
+  const auto after = everyone(*engine);
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (is_held(after[i])) {
+      EXPECT_EQ(after[i].position, before[i].position) << after[i].id;
+      EXPECT_EQ(after[i].velocity, (Vector3{})) << after[i].id;
+      EXPECT_EQ(after[i].angular_velocity, (Vector3{})) << after[i].id;
+    } else {
+      EXPECT_NE(after[i].position, before[i].position) << after[i].id;
+    }
+  }
+  auto resumed = box_engine(campaign, 1e-4, bytes);
+  for (int block = 0; block < 2; ++block) {
+    resumed->advance(100);
+    resumed->exchange();
+  }
+  EXPECT_EQ(largest_difference(everyone(*resumed), after), 0.0);
+  engine->hold(std::vector<bool>(engine->owned().size(), false));
+  engine->advance(100);
+  for (const auto& parcel : everyone(*engine)) EXPECT_GT(std::abs(parcel.velocity[0]), 0) << parcel.id;
+}
+
 TEST(Engine, ResizingKeepsTheMass) {
   const Campaign campaign = box_campaign();
   auto engine = settling_heap(campaign, 2);

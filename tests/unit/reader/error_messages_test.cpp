@@ -117,6 +117,8 @@ const std::vector<Mistake> mistakes{
     {"too few windows", "heat: {}", "heat: {}\nstrategy: predict-and-verify\npredict_and_verify: {windows: 3}", {R"(22:31: predict_and_verify.windows: must be at least 4, but is 3)"}},
     {"prediction of a cold scene", "heat: {}", "strategy: predict-and-verify", {R"(20:11: strategy: a prediction needs `heat`; a cold scene: `strategy: march`)"}},
     {"prediction until steady", "heat: {}", "heat: {}\nstrategy: predict-and-verify\ntracer: {stop: {when: steady}}", {R"(22:23: tracer.stop.when: `steady` does not go with predict-and-verify, which marches `predict_and_verify.windows` layer passages and `tracer.duration` where a prediction fails)"}},
+    {"gas steps without transient gas", "{stop: {at_most: 20 s}}", "{stop: {at_most: 20 s}, transient: {courant: 0.3}}", {R"(25:41: dem.transient: only the transient gas makes steps of its own (dem.gas: transient))"}},
+    {"dead man above the stock line", "heat: {}", "heat: {}\ndead_man: {tip: 90 m}", {R"(21:17: dead_man.tip: 90 m is not between the bottom, 0 m, and the stock line, 5.5 m)"}},
     {"for longer than at most", "for: 2 episodes", "for: 9 episodes", {R"(26:18: converged.for: 9 episodes in a row cannot happen in at most 8)"}},
     {"none_below of a hard species", "conductivity: 1.7", "conductivity: 1.7, none_below: 1 m", {R"(10:112: species.coke.none_below: only a species with `softening` can have this)"}},
     {"cold cohesive zone", "heat: {}", "heat: {}\ninitial: {cohesive_zone: {inverted_v: {tip: 2 m, slope: 0.5, below: 300, above: 2700}}}", {R"(21:69: initial.cohesive_zone.inverted_v.below: it must be hotter below the zone (300 K) than above it (2700 K))"}},

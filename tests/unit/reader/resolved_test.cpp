@@ -96,6 +96,12 @@ TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
   campaign.dem.void_fraction = DemSettings::VoidFraction::smoothed;
   campaign.dem.smoothing_length = 0.3;
   campaign.dem.limits = {0.2, 0.5, 0.1};
+  campaign.dem.gas = DemSettings::GasModel::transient;
+  campaign.dem.transient = {1e-3, 0.25, 3};
+  campaign.dead_man = {2.5, 0.8};
+  campaign.contacts.stiffness_of = Contacts::StiffnessOf::parcel;
+  campaign.contacts.rolling_model = Contacts::Rolling::epsd;
+  campaign.contacts.rolling_damping = 0.2;
   campaign.raceways[0].removal = Raceway::Removal::keep_void;
   const auto again = read(resolved_yaml(campaign));
   EXPECT_EQ(resolved_json(again), resolved_json(campaign));
@@ -107,6 +113,15 @@ TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
   EXPECT_EQ(again.dem.smoothing_length, 0.3);
   EXPECT_EQ(again.dem.limits.wall_overlap, 0.5);
   EXPECT_EQ(again.dem.limits.creep, 0.1);
+  EXPECT_EQ(again.dem.gas, DemSettings::GasModel::transient);
+  EXPECT_EQ(again.dem.transient.time_step, 1e-3);
+  EXPECT_EQ(again.dem.transient.courant, 0.25);
+  EXPECT_EQ(again.dem.transient.corrections, 3);
+  EXPECT_EQ(again.dead_man->tip, 2.5);
+  EXPECT_EQ(again.dead_man->slope, 0.8);
+  EXPECT_EQ(again.contacts.stiffness_of, Contacts::StiffnessOf::parcel);
+  EXPECT_EQ(again.contacts.rolling_model, Contacts::Rolling::epsd);
+  EXPECT_EQ(again.contacts.rolling_damping, 0.2);
   EXPECT_EQ(again.raceways[0].removal, Raceway::Removal::keep_void);
 }
 

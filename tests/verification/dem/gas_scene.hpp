@@ -1,5 +1,9 @@
 #pragma once
+#include <filesystem>
+
 #include "physics/closures/gas_properties.hpp"
+#include "physics/mesh/bed_mesh.hpp"
+#include "physics/mesh/foam_case.hpp"
 #include "schemas/campaign.hpp"
 
 namespace cupola::test {
@@ -24,5 +28,22 @@ inline void blow_through(Campaign& campaign, double mass_flow, double density, d
   gas.inlets = {blast};
   campaign.scene.gas = gas;
 }
+
+/// OpenFOAM and the mesh of a campaign on all ranks, in the running test's folder.
+class GasScene {
+ public:
+  explicit GasScene(const Campaign& campaign);
+
+ private:
+  std::filesystem::path folder_;
+  char name_[7] = "cupola";
+  char* words_[2] = {name_, nullptr};
+  int argc_ = 1;
+  char** argv_ = words_;
+
+ public:
+  FoamCase foam;
+  BedMesh mesh;
+};
 
 }  // namespace cupola::test

@@ -1,0 +1,13 @@
+#pragma once
+#include "stage_dem/dem_gas.hpp"
+#include "stage_dem/engine.hpp"
+#include "stage_dem/solids_on_mesh.hpp"
+
+namespace cupola {
+
+/// One block of `steps` steps of the engine (`step` s each) with a gas that moves with the bed: the parcels are divided
+/// over the mesh, the gas makes a step, its forces act on the parcels until the next one; as often as the gas wants.
+/// @return wall time of all that is not the engine's, s
+double advance_with_gas(Engine& engine, SolidsOnMesh& solids, DemGas& gas, double step, long steps);
+
+}  // namespace cupola
