@@ -131,6 +131,11 @@ Verdict verdict(const std::vector<bool>& all_met, int in_a_row, double unmelted_
   const auto episodes = static_cast<int>(all_met.size());
   if (episodes < least_episodes || episodes < in_a_row) return Verdict::not_yet;
   if (!std::all_of(all_met.end() - in_a_row, all_met.end(), [](bool met) { return met; })) return Verdict::not_yet;
+  return verified_verdict(true, unmelted_share);
+}
+
+Verdict verified_verdict(bool met, double unmelted_share) {
+  if (!met) return Verdict::not_yet;
   return unmelted_share > greatest_unmelted_share ? Verdict::steady_ore_not_melted : Verdict::converged;
 }
 

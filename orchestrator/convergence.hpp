@@ -83,6 +83,8 @@ inline constexpr double greatest_unmelted_share = 0.05;
 /// @param all_met for each episode so far, whether all its rules were met
 /// @param in_a_row how many episodes on end must meet them
 Verdict verdict(const std::vector<bool>& all_met, int in_a_row, double unmelted_share);
+/// Of an episode whose march has verified its prediction. @param met whether all its rules were met
+Verdict verified_verdict(bool met, double unmelted_share);
 
 std::string to_text(Verdict verdict);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "schemas/campaign.hpp"
@@ -11,6 +12,8 @@ namespace cupola {
 struct EpisodeFolders {
   std::filesystem::path dem;
   std::filesystem::path tracer;
+  std::optional<std::filesystem::path> predict{};  ///< with `predict-and-verify`, where it succeeded
+  std::optional<std::filesystem::path> correct{};
 };
 
 /// What the convergence rules look at in one episode, read from its results. Cells in undecomposed order, SI.

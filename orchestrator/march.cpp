@@ -10,7 +10,8 @@
 #include "orchestrator/convergence.hpp"
 #include "orchestrator/convergence_rules.hpp"
 #include "orchestrator/episode_judgement.hpp"
-#include "orchestrator/prediction.hpp"
+#include "orchestrator/prediction_judgement.hpp"
+#include "orchestrator/stage_orders.hpp"
 #include "orchestrator/stage_runner.hpp"
 #include "orchestrator/stage_state.hpp"
 
@@ -18,33 +19,6 @@ namespace cupola {
 namespace {
 
 using nlohmann::json;
-using Inputs = std::map<std::string, std::filesystem::path>;
-
-/// Where a stage gets the temperatures from: the tracer stage before, or a prediction that the run begins with.
-void add_temperatures(Inputs& inputs, const std::vector<EpisodeFolders>& before, const RunFolder& run) {
-  if (!run.campaign().heat) return;
-  if (!before.empty()) {
-    inputs["solids_temperature"] = before.back().tracer / "result.hdf";
-  } else if (const auto guess = usable_prediction(run.path())) {
-    inputs["solids_temperature"] = *guess;
-  }
-}
-
-Inputs dem_inputs(const std::vector<EpisodeFolders>& before, const RunFolder& run) {
-  Inputs inputs;
-  add_temperatures(inputs, before, run);
-  if (before.empty()) return inputs;
-  inputs["packing"] = before.back().dem / "result.hdf";
-  return inputs;
-}
-
-Inputs tracer_inputs(const std::vector<EpisodeFolders>& before, const std::filesystem::path& dem,
-                     const RunFolder& run) {
-  Inputs inputs{{"granular", dem / "result.hdf"}};
-  add_temperatures(inputs, before, run);
-  return inputs;
-}
-
 constexpr const char* on_request = "on request";
 constexpr const char* after_one_stage = "after one stage, as asked for";
 
@@ -72,6 +46,7 @@ class March {
         limit_(options.at_most.value_or(run.campaign().converged.at_most)) {}
 
   ExitCode go() {
+    if (const auto why = finish_first_prediction()) return stop(*why);
     for (int episode = 1; episode <= limit_; ++episode) {
       if (const auto why = finish_episode(episode)) return stop(*why);
       const Verdict now = judge(episode);
@@ -86,15 +61,50 @@ class March {
  private:
   /// @return why it has not been finished; none: it has
   std::optional<std::string> finish_episode(int episode) {
-    StagePlace place{episode, limit_, TaskKind::dem, 1};
-    const auto dem = stages_.finish(place, dem_inputs(finished_, run_));
-    if (!dem) return on_request;
+    const std::vector<TaskKind>& stages = stages_of_episode(run_.campaign().strategy);
+    EpisodeFolders now;
+    for (const TaskKind kind : stages) {
+      const auto order = stage_order(kind, finished_, now, run_.path(), run_.campaign());
+      if (!order) continue;
+      const StagePlace place{episode, limit_, kind, 1};
+      if (kind == TaskKind::dem || kind == TaskKind::tracer) {
+        const auto folder = stages_.finish(place, *order);
+        if (!folder) return on_request;
+        (kind == TaskKind::dem ? now.dem : now.tracer) = *folder;
+      } else if (!finish_or_do_without(place, *order, kind == TaskKind::predict ? now.predict : now.correct)) {
+        return on_request;
+      }
+      if (kind == stages.back()) break;
+      after_stage_();
+      if (enough_for_once()) return after_one_stage;
+    }
+    finished_.push_back(now);
+    return std::nullopt;
+  }
+
+  /// A prediction or correction, without which the campaign can go on marching.
+  /// @param folder set where it has succeeded  @return false where a stop was asked for
+  bool finish_or_do_without(const StagePlace& place, const StageOrder& order,
+                            std::optional<std::filesystem::path>& folder) {
+    const auto state = stage_state(run_.path(), run_.journal().records(), place.episode, place.kind);
+    if (state.condition == StageState::Condition::failed) return true;  // it would fail again
+    try {
+      folder = stages_.finish(place, order);
+      return folder.has_value();
+    } catch (const Failure& failure) {
+      if (failure.code() != ExitCode::diverged) throw;
+      view_.say(fmt::format("{} The campaign goes on marching.", failure.what()));
+      return true;
+    }
+  }
+
+  /// The prediction that `predict-and-verify` begins with. @return why it has not been finished
+  std::optional<std::string> finish_first_prediction() {
+    if (run_.campaign().strategy != Strategy::predict_and_verify) return std::nullopt;
+    std::optional<std::filesystem::path> folder;
+    if (!finish_or_do_without({before_all_episodes, limit_, TaskKind::predict, 1}, {}, folder)) return on_request;
     after_stage_();
     if (enough_for_once()) return after_one_stage;
-    place.kind = TaskKind::tracer;
-    const auto tracer = stages_.finish(place, tracer_inputs(finished_, *dem, run_));
-    if (!tracer) return on_request;
-    finished_.push_back({*dem, *tracer});
     return std::nullopt;
   }
 
@@ -109,13 +119,17 @@ class March {
     for (const json& record : run_.journal().records())
       if (record.value("event", "") == "episode-judged" && record.value("episode", 0) == episode) judgement = record;
     if (judgement.is_null()) {
-      judgement = judge_episode(finished_, run_.campaign());
+      judgement = finished_.back().correct
+                      ? judge_prediction(finished_, softened_by(finished_, run_.path()), run_.campaign())
+                      : judge_episode(finished_, run_.campaign());
       run_.journal().append("episode-judged", judgement);
       view_.say(fmt::format("episode {}: change over criterion: {}", episode, change_text(judgement, run_.campaign())));
     }
     met_.push_back(judgement.value("met", false));
     after_stage_();
-    return verdict(met_, run_.campaign().converged.for_episodes, judgement.value("unmelted_share", 0.));
+    const double unmelted = judgement.value("unmelted_share", 0.);
+    if (!is_verified(judgement)) return verdict(met_, run_.campaign().converged.for_episodes, unmelted);
+    return verified_verdict(met_.back(), unmelted);
   }
 
   ExitCode stop(const std::string& why) {

@@ -22,9 +22,8 @@ struct MarchOptions {
 /// Called whenever there is something new to show: `report`.
 using AfterStage = std::function<void()>;
 
-/// Strategy `march`, the alternation of seed 001: DEM stage and tracer stage in turns until the campaign's criteria are
-/// met or its limit is reached.  DEM stage k gets the packing of DEM stage k-1 and the temperatures of tracer stage
-/// k-1; tracer stage k gets the granular field of DEM stage k and the temperatures of tracer stage k-1.
+/// Brings the stages of episode after episode to their end (`stage_order`) until the campaign's criteria are met or its
+/// limit is reached.
 /// @return done: converged; stopped: at its limit, steady without melting, or on request
 /// @throws Failure as StageRunner::finish
 ExitCode march(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,

@@ -95,7 +95,10 @@ void check_result(const std::filesystem::path& task_folder, TaskKind kind, const
     check_residual(summary, "/ledger/residual", greatest_mass_residual, file);
   } else {
     check_residual(summary, "/ledger/mass/residual", greatest_mass_residual, file);
-    if (campaign.heat) check_residual(summary, "/ledger/energy/residual", greatest_energy_residual, file);
+    // A prediction that did not converge does not close; it is not gone on from either.
+    const bool converged =
+        kind != TaskKind::predict || summary.value(json::json_pointer("/prediction/converged"), false);
+    if (campaign.heat && converged) check_residual(summary, "/ledger/energy/residual", greatest_energy_residual, file);
   }
 }
 

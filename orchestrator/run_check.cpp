@@ -22,14 +22,11 @@ class Looker {
   RunCheck look() {
     look_at_campaign();
     look_at_journal();
+    look_at_stage(before_all_episodes, TaskKind::predict);
     bool any = true;
     for (int episode = 1; any; ++episode) {
       any = false;
-      for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer})
-        for (int attempt = 1; fs::is_directory(task_folder(run_, episode, kind, attempt)); ++attempt) {
-          any = true;
-          look_at_attempt(episode, kind, attempt);
-        }
+      for (const TaskKind kind : all_stages_of_episode()) any = look_at_stage(episode, kind) || any;
     }
     look_for_missing();
     return std::move(check_);
@@ -79,9 +76,17 @@ class Looker {
       check_.remarks.push_back(file.string() + ": its last line was cut short; the next start drops it");
   }
 
+  /// @return whether there is any attempt
+  bool look_at_stage(int episode, TaskKind kind) {
+    int attempt = 1;
+    for (; fs::is_directory(task_folder(run_, episode, kind, attempt)); ++attempt)
+      look_at_attempt(episode, kind, attempt);
+    return attempt > 1;
+  }
+
   void look_at_attempt(int episode, TaskKind kind, int attempt) {
     const fs::path folder = task_folder(run_, episode, kind, attempt);
-    const std::string name = fmt::format("{} stage of episode {}", stage_name(kind), episode);
+    const std::string name = stage_title(kind, episode);
     const json* preparing = last_record(journal_, "stage-preparing", episode, kind, attempt);
     const json* finished = last_record(journal_, "stage-finished", episode, kind, attempt);
     if (has_manifest(folder)) {
@@ -145,8 +150,8 @@ class Looker {
   void look_for_missing() {
     for (const json& record : journal_) {
       if (record.value("event", "") != "stage-finished") continue;
-      const TaskKind kind = record.value("stage", "") == "dem" ? TaskKind::dem : TaskKind::tracer;
-      const fs::path folder = task_folder(run_, record.value("episode", 0), kind, record.value("attempt", 0));
+      const fs::path folder = task_folder(run_, record.value("episode", 0), stage_kind(record.value("stage", "")),
+                                          record.value("attempt", 0));
       if (!fs::is_directory(folder))
         check_.problems.push_back(folder.string() + ": missing, although the journal knows it finished");
     }

@@ -8,6 +8,7 @@
 #include "orchestrator/built_with.hpp"
 #include "orchestrator/campaign_difference.hpp"
 #include "orchestrator/child_process.hpp"
+#include "orchestrator/stage_sequence.hpp"
 #include "schemas/campaign_reader.hpp"
 #include "schemas/resolved_campaign.hpp"
 
@@ -126,10 +127,14 @@ void make_folders(const fs::path& folder) {
 }  // namespace
 
 fs::path stage_folder(const fs::path& run, int episode, TaskKind kind) {
-  return run / "episodes" / fmt::format("{:03d}", episode) / (kind == TaskKind::dem ? "dem" : "tracer");
+  if (episode == before_all_episodes) return run / "prediction";
+  return run / "episodes" / fmt::format("{:03d}", episode) / stage_name(kind);
 }
 
 fs::path task_folder(const fs::path& run, int episode, TaskKind kind, int attempt) {
+  // The prediction that a run begins with may have been made before there was a campaign to run.
+  if (episode == before_all_episodes)
+    return attempt > 1 ? run / fmt::format("prediction-attempt-{}", attempt) : stage_folder(run, episode, kind);
   return stage_folder(run, episode, kind) / fmt::format("attempt-{}", attempt);
 }
 

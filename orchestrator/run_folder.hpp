@@ -25,9 +25,9 @@ struct RunRecord {
 /// @throws Failure wrong_input: not a run folder, or a frozen file was changed; input_output
 RunRecord read_run(const std::filesystem::path& folder);
 
-/// `RUN/episodes/002/dem`
+/// `RUN/episodes/002/dem`; `RUN/prediction` for what comes before all episodes
 std::filesystem::path stage_folder(const std::filesystem::path& run, int episode, TaskKind kind);
-/// `RUN/episodes/002/dem/attempt-1`
+/// `RUN/episodes/002/dem/attempt-1`; `RUN/prediction`
 std::filesystem::path task_folder(const std::filesystem::path& run, int episode, TaskKind kind, int attempt);
 
 /// A run folder this process works in: locked, its journal open.

@@ -44,13 +44,22 @@ struct Present {
 };
 
 Present present_stage(const RunRecord& run, int at_most) {
+  using Condition = StageState::Condition;
   Present present;
+  if (run.campaign.strategy == Strategy::predict_and_verify) {
+    present = {before_all_episodes, TaskKind::predict,
+               stage_state(run.folder, run.journal, before_all_episodes, TaskKind::predict)};
+    if (present.state.condition != Condition::finished && present.state.condition != Condition::failed) return present;
+  }
   for (int episode = 1; episode <= at_most; ++episode) {
-    for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer}) {
+    for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
       StageState state = stage_state(run.folder, run.journal, episode, kind);
-      if (state.condition == StageState::Condition::absent && (episode > 1 || kind == TaskKind::tracer)) return present;
+      const bool left_out = kind == TaskKind::predict || kind == TaskKind::correct;
+      if (state.condition == Condition::absent && left_out) continue;
+      if (state.condition == Condition::absent && (episode > 1 || kind != TaskKind::dem)) return present;
       present = {episode, kind, std::move(state)};
-      if (present.state.condition != StageState::Condition::finished) return present;
+      if (present.state.condition == Condition::failed && left_out) continue;
+      if (present.state.condition != Condition::finished) return present;
     }
   }
   return present;
@@ -133,16 +142,26 @@ json remaining(const RunRecord& run, const Present& present, int at_most) {
                  {"seconds", nullptr},
                  {"until_limit", trend ? json(trend->until_limit) : json()},
                  {"why", trend ? trend->why : "known after two episodes"}};
-  const double dem = mean_wall_seconds(run, TaskKind::dem), tracer = mean_wall_seconds(run, TaskKind::tracer);
-  if (!trend || dem <= 0 || tracer <= 0) return result;
-  double seconds = trend->episodes * (dem + tracer);
+  // Wall time of an episode, and of its stages before the present one.
+  double whole = 0, before = 0, present_one = 0;
+  for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
+    const double stage = mean_wall_seconds(run, kind);
+    if (stage <= 0 && (kind == TaskKind::dem || kind == TaskKind::tracer)) return result;
+    if (kind == present.kind) {
+      before = whole;
+      present_one = stage;
+    }
+    whole += stage;
+  }
+  if (!trend) return result;
+  double seconds = trend->episodes * whole;
   // What of the present episode has been done already.
   if (present.episode > static_cast<int>(judged.size()) && trend->episodes > 0) {
     const auto progress = read_progress(present.state.folder);
     const double share = progress && progress->process_seconds_total > 0
                              ? std::min(progress->process_seconds / progress->process_seconds_total, 1.0)
                              : 0.0;
-    seconds -= present.kind == TaskKind::dem ? share * dem : dem + share * tracer;
+    seconds -= before + share * present_one;
   }
   result["seconds"] = std::max(seconds, 0.0);
   return result;
@@ -183,7 +202,7 @@ std::vector<std::string> last_warnings(const RunRecord& run, const Present& pres
   std::set<std::string> said;
   for (const std::string& line : logged_warnings(present.state.folder / "stage.log"))
     if (said.insert(line).second)
-      warnings.push_back(fmt::format("{} stage of episode {}: {}", stage_name(present.kind), present.episode, line));
+      warnings.push_back(fmt::format("{}: {}", stage_title(present.kind, present.episode), line));
   if (warnings.size() > most) warnings.erase(warnings.begin(), warnings.end() - most);
   return warnings;
 }
@@ -243,8 +262,8 @@ std::string status_text(const json& status) {
   if (status["held_by"].is_string()) text += " (" + status["held_by"].get<std::string>() + ")";
   if (status["message"].is_string()) text += "\n  " + status["message"].get<std::string>();
   const std::filesystem::path run = status["folder"].get<std::string>();
-  const StagePlace place{status["episode"], status["at_most"],
-                         status["stage"] == "dem" ? TaskKind::dem : TaskKind::tracer, status["attempt"]};
+  const StagePlace place{status["episode"], status["at_most"], stage_kind(status["stage"].get<std::string>()),
+                         status["attempt"]};
   const auto progress = read_progress(task_folder(run, place.episode, place.kind, place.attempt));
   const std::string condition = status["condition"].get<std::string>();
   text += "\n  " + (condition == "running" || status["state"] == "running"

@@ -29,10 +29,6 @@ int physical_cores() {
 
 }  // namespace
 
-std::string stage_name(TaskKind kind) {
-  return kind == TaskKind::dem ? "dem" : kind == TaskKind::tracer ? "tracer" : "predict";
-}
-
 StageLauncher::StageLauncher(std::filesystem::path programs) : programs_(std::move(programs)) {
   for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer})
     if (::access(program(kind).c_str(), X_OK) != 0)

@@ -3,12 +3,10 @@
 #include <string>
 
 #include "orchestrator/child_process.hpp"
+#include "orchestrator/stage_sequence.hpp"
 #include "schemas/task.hpp"
 
 namespace cupola {
-
-/// `dem`, `tracer` or `predict`: the folder of a stage in an episode.
-std::string stage_name(TaskKind kind);
 
 /// How stages are started on this machine: `cupola-dem` and `cupola-tracer` from the folder of our own program, with
 /// mpirun.

@@ -24,9 +24,7 @@ constexpr auto look_again = 500ms;  // at progress.json
 
 }  // namespace
 
-std::string StageRunner::name_of(const StagePlace& place) {
-  return fmt::format("{} stage of episode {}", stage_name(place.kind), place.episode);
-}
+std::string StageRunner::name_of(const StagePlace& place) { return stage_title(place.kind, place.episode); }
 
 std::filesystem::path StageRunner::folder(const StagePlace& place) const {
   return task_folder(run_.path(), place.episode, place.kind, place.attempt);
@@ -36,8 +34,7 @@ json StageRunner::about(const StagePlace& place) const {
   return {{"episode", place.episode}, {"stage", stage_name(place.kind)}, {"attempt", place.attempt}};
 }
 
-std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
-                                                         const std::map<std::string, std::filesystem::path>& inputs) {
+std::optional<std::filesystem::path> StageRunner::finish(StagePlace place, const StageOrder& order) {
   Patience patience;
   for (;;) {
     const StageState state = stage_state(run_.path(), run_.journal().records(), place.episode, place.kind);
@@ -60,7 +57,7 @@ std::optional<std::filesystem::path> StageRunner::finish(StagePlace place,
         begin_retry(place, state, patience);
         break;
       default:
-        if (!run_attempt(place, inputs, patience)) return std::nullopt;
+        if (!run_attempt(place, order, patience)) return std::nullopt;
     }
   }
 }
@@ -104,9 +101,13 @@ void StageRunner::begin_anew_where_removed(const StagePlace& place) {
       last_record(run_.journal().records(), "stage-preparing", place.episode, place.kind, place.attempt) == nullptr)
     return;
   std::vector<std::string> later;
-  if (place.kind == TaskKind::dem &&
-      std::filesystem::exists(stage_folder(run_.path(), place.episode, TaskKind::tracer)))
-    later.push_back(stage_folder(run_.path(), place.episode, TaskKind::tracer).string());
+  bool after = false;
+  for (const TaskKind kind : all_stages_of_episode()) {
+    const auto other = stage_folder(run_.path(), place.episode, kind);
+    if (after && place.episode != before_all_episodes && std::filesystem::exists(other))
+      later.push_back(other.string());
+    after = after || kind == place.kind;
+  }
   for (int episode = place.episode + 1;; ++episode) {
     const auto next = stage_folder(run_.path(), episode, TaskKind::dem).parent_path();
     if (!std::filesystem::exists(next)) break;
@@ -144,11 +145,10 @@ void StageRunner::wait_for_orphan(const StagePlace& place, const StageState& sta
   waited_ += std::chrono::steady_clock::now() - begin;
 }
 
-bool StageRunner::run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,
-                              Patience& patience) {
+bool StageRunner::run_attempt(const StagePlace& place, const StageOrder& order, Patience& patience) {
   ++patience.starts;
   const std::filesystem::path task = folder(place);
-  make_task(place, inputs);
+  make_task(place, order);
   Launch launch = run_.campaign().launch;
   launch.ranks = ranks();
   if (launch.slurm && !in_allocation_for(launch.ranks)) {
@@ -164,11 +164,13 @@ bool StageRunner::run_attempt(const StagePlace& place, const std::map<std::strin
   return judge_end(place, status, patience);
 }
 
-void StageRunner::make_task(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs) {
+void StageRunner::make_task(const StagePlace& place, const StageOrder& order) {
   const std::filesystem::path task = folder(place);
   const json* preparing =
       last_record(run_.journal().records(), "stage-preparing", place.episode, place.kind, place.attempt);
-  ensure_task(task, stage_task(place.kind, place.episode, campaign_in_force(), run_.campaign_hash(), inputs, task),
+  Campaign campaign = campaign_in_force();
+  campaign.tracer.duration = order.tracer_duration.value_or(campaign.tracer.duration);
+  ensure_task(task, stage_task(place.kind, place.episode, campaign, run_.campaign_hash(), order.inputs, task),
               preparing != nullptr ? preparing->value("task_hash", "") : "");
   // What an earlier start complained of (a full disk, say) is in the journal; this start may do better.
   std::filesystem::remove(task / "failure.json");

@@ -1,7 +1,6 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/signal_watch.hpp"
 #include "orchestrator/stage_launcher.hpp"
+#include "orchestrator/stage_orders.hpp"
 #include "orchestrator/stage_state.hpp"
 
 namespace cupola {
@@ -32,11 +32,9 @@ class StageRunner {
   StageRunner(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view)
       : run_(run), launcher_(launcher), signals_(signals), view_(view), jobs_(run, launcher, signals, view) {}
 
-  /// @param inputs files by the names of `Task::inputs`
   /// @return the finished task folder; none: stopped on request, with what is there left to go on from
   /// @throws Failure wrong_input, diverged, input_output: as the stage said, or because its result was refused
-  std::optional<std::filesystem::path> finish(StagePlace place,
-                                              const std::map<std::string, std::filesystem::path>& inputs);
+  std::optional<std::filesystem::path> finish(StagePlace place, const StageOrder& order);
 
   /// Wall time spent waiting for stages and their preparation so far: the rest is the orchestrator's own.
   [[nodiscard]] std::chrono::duration<double> waited() const { return waited_; }
@@ -58,10 +56,9 @@ class StageRunner {
   void begin_anew_where_removed(const StagePlace& place);
   void begin_retry(StagePlace& place, const StageState& state, Patience& patience);
   /// Prepares and runs the attempt. @return false where a stop was asked for or the stage was stopped
-  bool run_attempt(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs,
-                   Patience& patience);
+  bool run_attempt(const StagePlace& place, const StageOrder& order, Patience& patience);
   /// Sees that the task is there, and the one the journal knows.
-  void make_task(const StagePlace& place, const std::map<std::string, std::filesystem::path>& inputs);
+  void make_task(const StagePlace& place, const StageOrder& order);
   /// Sees that its OpenFOAM case is prepared. @return exit status of the preparation; 0 where there was nothing to do
   int make_ready(const StagePlace& place);
   /// @param content of the event, @param stoppable whether a request to stop is passed on

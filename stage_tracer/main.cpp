@@ -50,6 +50,7 @@ int march(const std::filesystem::path& folder, int& argc, char**& argv) {
       if (foam.rank() == 0) lock.emplace(folder);
       cupola::open_stage_log(folder, foam.rank());
       if (task.kind == cupola::TaskKind::predict) return cupola::predict(foam, folder, task);
+      if (task.kind == cupola::TaskKind::correct) return cupola::correct(foam, folder, task);
       return cupola::TracerStage(foam, folder, task).run();
     }));
   });

@@ -4,12 +4,26 @@
 #include "schemas/field_file.hpp"
 
 namespace cupola {
+namespace {
+
+/// Temperatures that tracers begin with, and what the bed held then.
+void begin_with(PreviousTemperature& previous, const FieldFile& file, const Campaign& campaign) {
+  for (const Species& species : campaign.species)
+    previous.by_species.push_back(file.cell_data("solids_temperature." + species.name));
+  const nlohmann::json summary = file.summary();
+  if (summary.contains("energy_in_bed")) previous.energy = summary["energy_in_bed"].get<double>();
+}
+
+}  // namespace
 
 PreviousTemperature read_previous_temperature(const std::filesystem::path& folder, const Task& task,
                                               const BedMesh& mesh) {
   PreviousTemperature previous;
   const Campaign& campaign = task.campaign;
   if (!campaign.heat) return previous;
+  const auto prediction = task.inputs.find("prediction");
+  if (prediction != task.inputs.end())
+    begin_with(previous, FieldFile(folder / prediction->second.file, "tracer-result", mesh.hash), campaign);
   const auto input = task.inputs.find("solids_temperature");
   if (input == task.inputs.end()) {
     previous.ore.assign(mesh.cells(), campaign.charging.temperature);
@@ -19,12 +33,9 @@ PreviousTemperature read_previous_temperature(const std::filesystem::path& folde
     return previous;
   }
   const FieldFile file(folder / input->second.file, "tracer-result", mesh.hash);
-  for (const Species& species : campaign.species)
-    previous.by_species.push_back(file.cell_data("solids_temperature." + species.name));
   previous.ore =
       file.has_cell_data("ore_temperature") ? file.cell_data("ore_temperature") : file.cell_data("solids_temperature");
-  const nlohmann::json summary = file.summary();
-  if (summary.contains("energy_in_bed")) previous.energy = summary["energy_in_bed"].get<double>();
+  if (prediction == task.inputs.end()) begin_with(previous, file, campaign);
   return previous;
 }
 

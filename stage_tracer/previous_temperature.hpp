@@ -9,7 +9,8 @@
 
 namespace cupola {
 
-/// Temperatures at hand when the stage begins: the result of the previous tracer stage, or the campaign's guess.
+/// Temperatures at hand when the stage begins: the result of the previous tracer stage, or the campaign's guess; for
+/// the tracers those of a prediction where there is one.
 struct PreviousTemperature {
   std::vector<double> ore;       ///< K, all cells: what the DEM stage softened and melted by; empty without heat
   BySpecies by_species;          ///< K, [species][cell]; empty where there is no previous result

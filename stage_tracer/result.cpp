@@ -85,6 +85,29 @@ nlohmann::json isotherm_json(const Isotherm& isotherm) {
           {"columns_without", isotherm.columns_without}};
 }
 
+const Softening& softening_of(const Campaign& campaign) {
+  const Softening* softening = nullptr;
+  for (const Species& species : campaign.species) {
+    if (species.softening) softening = &*species.softening;
+  }
+  return *softening;
+}
+
+/// Adds a bias to the ore temperature; its isotherms move with it.
+void shift(MeltingZone& zone, const BedMesh& mesh, const Campaign& campaign, const std::vector<double>& bias) {
+  for (const Column& column : zone.columns) {
+    std::vector<double> shifted;
+    for (const std::int64_t cell : column.cells) {
+      shifted.push_back(std::max(zone.ore_temperature[cell] + bias[cell], campaign.charging.temperature));
+    }
+    shifted = isotonic(shifted, std::vector<double>(shifted.size(), 1.0));
+    for (std::size_t i = 0; i < shifted.size(); ++i) zone.ore_temperature[column.cells[i]] = shifted[i];
+  }
+  const Softening& softening = softening_of(campaign);
+  zone.melted = find_isotherm(mesh, zone.columns, zone.ore_temperature, softening.melted);
+  zone.softened = find_isotherm(mesh, zone.columns, zone.ore_temperature, softening.from);
+}
+
 void write_temperatures(FieldFileWriter& file, const Task& task, const MarchOutcome& outcome, nlohmann::json& summary) {
   const Campaign& campaign = task.campaign;
   const BySpecies volume = outcome.averages.volume();
@@ -100,7 +123,8 @@ void write_temperatures(FieldFileWriter& file, const Task& task, const MarchOutc
   summary["mean_solid_temperature"] = outcome.averages.mean_solid_temperature();
   summary["energy_in_bed"] = outcome.ledger.energy_now;
   if (!can_melt(campaign)) return;
-  const MeltingZone zone = find_melting_zone(outcome.mesh, campaign, outcome.field, volume, temperature);
+  MeltingZone zone = find_melting_zone(outcome.mesh, campaign, outcome.field, volume, temperature);
+  if (!outcome.melting_bias.empty()) shift(zone, outcome.mesh, campaign, outcome.melting_bias);
   file.cell_data("ore_temperature", zone.ore_temperature);
   std::vector<double> x;
   std::vector<double> area;
@@ -253,7 +277,10 @@ void write_result(const std::filesystem::path& folder, const Task& task, const M
       summary["biot_largest"][campaign.species[s].name] = outcome.largest_biot[s];
   }
   if (heat) write_temperatures(file, task, outcome, summary);
+  for (const auto& [name, values] : outcome.more_cell_data) file.cell_data(name, values);
   if (!outcome.prediction.is_null()) summary["prediction"] = outcome.prediction;
+  if (!outcome.correction.is_null()) summary["correction"] = outcome.correction;
+  if (outcome.measured != nullptr) outcome.measured->write(file.hdf());
   write_tracers(file.hdf(), outcome, heat);
   file.summary(summary);
   file.commit();

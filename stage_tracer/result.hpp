@@ -12,6 +12,7 @@
 #include "stage_tracer/gas_model.hpp"
 #include "stage_tracer/granular_field.hpp"
 #include "stage_tracer/ledger.hpp"
+#include "stage_tracer/march_windows.hpp"
 #include "stage_tracer/steady_watch.hpp"
 #include "stage_tracer/tracers.hpp"
 
@@ -54,7 +55,11 @@ struct MarchOutcome {
   std::vector<double> largest_biot{};  ///< of each species, in the last step
   nlohmann::json gas_comparison{};     ///< of both gas models, where asked for
   nlohmann::json prediction{};         ///< of a prediction: how it came about; null for a march
-  std::optional<double> step_error{};  ///< estimated error of the temperatures from the time step; with heat
+  nlohmann::json correction{};         ///< of a corrected prediction: what the march has measured
+  std::vector<double> melting_bias{};  ///< K, all cells, added to the ore temperature of a prediction; empty: none
+  std::map<std::string, std::vector<double>> more_cell_data{};  ///< fields by name, written as they are
+  const MarchWindows* measured = nullptr;  ///< means over the layer passages of a march that began with a prediction
+  std::optional<double> step_error{};      ///< estimated error of the temperatures from the time step; with heat
   bool until_steady = false;
   std::optional<RemainingChange> remaining{};  ///< of a march until steady, where it is known
   std::size_t windows = 0;                     ///< of it

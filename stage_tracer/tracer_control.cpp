@@ -63,6 +63,18 @@ void TracerStage::estimate_error() {
   }
 }
 
+void TracerStage::end_window() {
+  // Windows end where the march ends.
+  const auto windows_left = [&](double time) {
+    return std::ceil((campaign_.tracer.longest() - time) / window() - 1e-6);
+  };
+  const bool last = step_ >= steps_.count;
+  if (!last && windows_left(now_ - steps_.length) == windows_left(now_)) return;
+  const auto running = clock_.measure("averages");
+  windows_->add(averages_);
+  if (!last) averages_.clear();
+}
+
 bool TracerStage::is_steady() {
   if (campaign_.tracer.stop != TracerSettings::Stop::steady) return false;
   // Windows end where the longest march would end.

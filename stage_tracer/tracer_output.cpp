@@ -97,6 +97,7 @@ MarchOutcome TracerStage::outcome() {
   result.until_steady = campaign_.tracer.stop == TracerSettings::Stop::steady;
   result.remaining = steady_.remaining();
   result.windows = steady_.windows();
+  if (windows_) result.measured = &*windows_;
   if (campaign_.tracer.displacement != TracerSettings::Displacement::none) {
     std::vector<double> held = {static_cast<double>(held_back_)};
     sum_(held);

@@ -12,6 +12,7 @@
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "stage_tracer/displacement.hpp"
+#include "stage_tracer/predictor/predicted_field.hpp"
 #include "stage_tracer/seeding.hpp"
 
 namespace cupola {
@@ -31,6 +32,18 @@ std::filesystem::path granular_result(const std::filesystem::path& folder, const
                   "task.yaml: inputs.granular is missing; a tracer task needs the DEM result of its episode");
   }
   return folder / input->second.file;
+}
+
+/// The field of the DEM result; where the march begins with a prediction, the one that was predicted on.
+GranularField granular_field(FoamCase& foam, const BedMesh& mesh, const std::filesystem::path& folder, const Task& task,
+                             const DemResult& dem, const std::vector<double>& dem_temperature) {
+  const auto prediction = task.inputs.find("prediction");
+  if (prediction == task.inputs.end()) return make_granular_field(foam, mesh, task.campaign, dem, dem_temperature);
+  PredictedField predicted(foam, mesh, task.campaign, &dem, dem_temperature);
+  predicted.follow(
+      FieldFile(folder / prediction->second.file, "tracer-result", mesh.hash).cell_data(predicted_share_name));
+  predicted.mark_stagnant();
+  return predicted.field();
 }
 
 /// Volume of the recipe that has passed the stock plane when the stage begins: what the DEM stage has charged, less
@@ -74,7 +87,7 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
       locator_(mesh_),
       dem_(read_dem_result(granular_result(folder_, task), mesh_, campaign_)),
       previous_(read_previous_temperature(folder_, task, mesh_)),
-      field_(make_granular_field(foam, mesh_, campaign_, dem_, previous_.ore)),
+      field_(granular_field(foam, mesh_, folder_, task, dem_, previous_.ore)),
       paths_(mesh_, field_.face_flux, field_.storage),
       split_(tracers_per_parcel(campaign_, locator_, field_.bed, dem_.packing)),
       charge_(make_charge(campaign_, mesh_, field_, dem_)),
@@ -90,6 +103,7 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
   if (campaign_.scene.gas && campaign_.tracer.gas != TracerSettings::GasModel::none) {
     gas_ = std::make_unique<GasModel>(foam_, mesh_, campaign_);
   }
+  if (task.inputs.contains("prediction")) windows_.emplace(campaign_.species.size(), mesh_.cells());
   if (charge_) {
     std::vector<double> tracer_volume;
     for (const Species& species : campaign_.species) {
@@ -116,6 +130,7 @@ ExitCode TracerStage::run() {
   while (!done) {
     if (campaign_.heat && is_power_of_four(step_)) estimate_error();
     step();
+    if (windows_) end_window();
     done = step_ >= steps_.count || is_steady();
     const bool stop = StopRequest::agreed(MPI_COMM_WORLD) && !done;
     write_output(stop, done);

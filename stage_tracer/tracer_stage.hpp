@@ -17,6 +17,7 @@
 #include "stage_tracer/insertion.hpp"
 #include "stage_tracer/ledger.hpp"
 #include "stage_tracer/make_granular_field.hpp"
+#include "stage_tracer/march_windows.hpp"
 #include "stage_tracer/motion.hpp"
 #include "stage_tracer/part_clock.hpp"
 #include "stage_tracer/previous_temperature.hpp"
@@ -59,6 +60,8 @@ class TracerStage {
   void begin_gas();
   void average(double seconds);
   [[nodiscard]] bool is_steady();
+  /// Ends a window of a march that measures a prediction.
+  void end_window();
   void close_balances();
   void write_output(bool checkpoint_now, bool last);
   [[nodiscard]] nlohmann::json history_line() const;
@@ -107,9 +110,10 @@ class TracerStage {
   Tally local_tally_;            ///< of this rank since the ledger was last closed
   std::size_t all_tracers_ = 0;  ///< of all ranks
   Averages averages_;
-  std::unique_ptr<GasModel> gas_;    ///< null without gas
-  std::int64_t cells_at_floor_ = 0;  ///< of the void fraction, largest so far
-  double wall_before_ = 0;           ///< s, of earlier starts of this task
+  std::optional<MarchWindows> windows_;  ///< of a march that began with a prediction
+  std::unique_ptr<GasModel> gas_;        ///< null without gas
+  std::int64_t cells_at_floor_ = 0;      ///< of the void fraction, largest so far
+  double wall_before_ = 0;               ///< s, of earlier starts of this task
 
   double last_checkpoint_ = 0;  ///< s of wall time
   double last_progress_ = 0;

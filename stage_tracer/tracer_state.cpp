@@ -41,6 +41,7 @@ void TracerStage::read_state(const HdfReader& file) {
   ledger_ = Ledger::from_row(file.doubles("March/ledger"));
   averages_.restore(file.doubles("March/averages"));
   steady_.restore(file.doubles("March/steady"));
+  if (windows_) windows_->restore(file.doubles("March/windows"));
   tracers_ = from_rows(file.doubles("March/tracers"), campaign_.heat.has_value(), foam_.rank(), foam_.ranks());
   if (insertion_) insertion_->restore(file.doubles("Insertion/owed"), file.integers("Insertion/next_id", 1)[0]);
   if (gas_) gas_->restore(file);
@@ -55,6 +56,7 @@ void TracerStage::write_state(HdfWriter& file, const std::vector<double>& all_tr
   file.write("March/ledger", ledger_.row());
   file.write("March/averages", averages_.row());
   file.write("March/steady", steady_.row());
+  if (windows_) file.write("March/windows", windows_->row());
   file.write("March/tracers", all_tracer_rows, tracer_columns);
   if (insertion_) {
     file.write("Insertion/owed", insertion_->owed());

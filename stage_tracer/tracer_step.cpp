@@ -83,7 +83,7 @@ double TracerStage::window() const { return charge_ ? charge_->cycle_seconds() :
 void TracerStage::average(double seconds) {
   const bool until_steady = campaign_.tracer.stop == TracerSettings::Stop::steady;
   const double middle = now_ + 0.5 * seconds;
-  if (!until_steady && middle < campaign_.tracer.duration - window() && step_ + 1 < steps_.count) return;
+  if (!until_steady && !windows_ && middle < campaign_.tracer.duration - window() && step_ + 1 < steps_.count) return;
   const auto running = clock_.measure("averages");
   averages_.add(spread(contents_, kernel_), campaign_, seconds);
 }

@@ -23,8 +23,10 @@ std::string own_job() {
 }
 
 /// Stages that are still to be run where the campaign goes to its limit.
-int stages_left(const std::vector<json>& journal, int episodes) {
-  return std::max(2 * episodes - stages_finished(journal), 1);
+int stages_left(const std::vector<json>& journal, Strategy strategy, int episodes) {
+  const int each = static_cast<int>(stages_of_episode(strategy).size());
+  const int first = strategy == Strategy::predict_and_verify ? 1 : 0;
+  return std::max(first + each * episodes - stages_finished(journal), 1);
 }
 
 }  // namespace
@@ -46,7 +48,8 @@ std::vector<std::string> SlurmChain::submit(const StageLauncher& launcher, std::
   write_text_atomically(folder / "link.sh", link_script(*launch.slurm, words));
 
   BatchJob link{job_name(run_, "chain"), folder / "link.sh", folder, folder / "link.log"};
-  const int links = stages_left(run_.journal().records(), at_most.value_or(run_.campaign().converged.at_most));
+  const int links = stages_left(run_.journal().records(), run_.campaign().strategy,
+                                at_most.value_or(run_.campaign().converged.at_most));
   run_.journal().append("chain-submitting", {{"name", link.name}, {"links", links}});
   std::vector<std::string> jobs;
   try {

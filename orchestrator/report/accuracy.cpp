@@ -114,7 +114,7 @@ json accuracy_and_cost(const std::vector<StageReport>& stages, const json& repor
                                1};
       if (!errors["error"].empty()) result["granular"].push_back(errors);
       wall_of_episode = 0;
-    } else {
+    } else if (stage.kind == TaskKind::tracer) {
       const json steps = curve(stage, wall, "/time_step_error"), gas = curve(stage, wall, "/gas_energy_residual");
       if (const auto error = last_value(steps); error && stage_wall(stage) > 0)
         time_step = ErrorSource{"the tracers' time step",

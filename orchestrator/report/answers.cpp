@@ -44,6 +44,19 @@ std::string sentences(const std::vector<std::string>& parts) {
 /// the last change.
 std::vector<std::string> remaining_changes(const json& episode, const json& criteria) {
   std::vector<std::string> parts;
+  if (const auto left_alone = number_at(episode, "/figures/left_alone")) {
+    const auto error = number_at(episode, "/figures/temperature"), zone = number_at(episode, "/figures/cohesive_zone");
+    if (error) {
+      parts.push_back(fmt::format("Temperatures estimated to be off by at most {:.2g} % (wanted below {:.2g} %).",
+                                  100 * *error, 100 * criteria.at("temperature").get<double>()));
+    }
+    if (zone) {
+      parts.push_back(fmt::format("The zone by at most {:.2g} cells (wanted below {:.2g}).", *zone,
+                                  criteria.at("cohesive_zone").get<double>()));
+    }
+    parts.push_back(fmt::format("Tracers left alone went {:.2g} % from their prediction.", 100 * *left_alone));
+    return parts;
+  }
   if (const auto value = number_at(episode, "/figures/temperature")) {
     parts.push_back(fmt::format("{} by {:.2g} % (wanted below {:.2g} %).",
                                 number_at(episode, "/lambda/temperature") ? "Temperature still to change"
@@ -88,6 +101,10 @@ json has_it_converged(const json& report) {
         report.at("prediction").at("converged").get<bool>()
             ? "A steady solution on streamlines; no stage of the campaign was run."
             : "A steady solution on streamlines was sought and not found; what is shown is the last iteration.");
+  }
+  if (state == "converged" && report.value("strategy", "") == "predict-and-verify") {
+    return entry(question, fmt::format("Yes, after {} DEM stages", episodes),
+                 report.at("predict_and_verify").at("sentence").get<std::string>());
   }
   if (state == "converged") {
     return entry(question, fmt::format("Yes, after {} episodes", episodes),

@@ -14,12 +14,15 @@
 #include "orchestrator/report/charts.hpp"
 #include "orchestrator/report/json_numbers.hpp"
 #include "orchestrator/report/paraview_views.hpp"
+#include "orchestrator/report/predict_and_verify.hpp"
 #include "orchestrator/report/prediction_report.hpp"
 #include "orchestrator/report/provenance.hpp"
 #include "orchestrator/report/report_page.hpp"
 #include "orchestrator/report/stage_report.hpp"
 #include "orchestrator/report/warnings.hpp"
 #include "orchestrator/run_folder.hpp"
+#include "orchestrator/stage_sequence.hpp"
+#include "schemas/campaign_words.hpp"
 #include "schemas/files.hpp"
 
 namespace cupola {
@@ -63,6 +66,8 @@ json episodes_of(const RunRecord& run, const std::vector<StageReport>& stages) {
       episodes.push_back({{"index", stage.episode},
                           {"dem", stage_entry(stage)},
                           {"tracer", nullptr},
+                          {"predict", nullptr},
+                          {"correct", nullptr},
                           {"mean_solid_temperature", nullptr},
                           {"cohesive_zone", nullptr},
                           {"change", judgement["change"]},
@@ -71,8 +76,9 @@ json episodes_of(const RunRecord& run, const std::vector<StageReport>& stages) {
       continue;
     }
     json& episode = episodes.back();
-    episode["tracer"] = stage_entry(stage);
-    if (stage.readable) {
+    episode[stage_name(stage.kind)] = stage_entry(stage);
+    // What counts is what the tracers came to, and after that the prediction that they have corrected.
+    if (stage.readable && stage.kind != TaskKind::predict) {
       episode["mean_solid_temperature"] = number_or_null(stage.summary, "/mean_solid_temperature");
       episode["cohesive_zone"] = stage.summary.value("cohesive_zone", json());
     }
@@ -145,7 +151,10 @@ std::pair<std::string, std::string> state_of(const RunRecord& run, const std::ve
     return {"failed", last.value("sentence", "a result failed its checks")};
   }
   if (stages.empty()) {
-    return {"not started", "no stage has begun"};
+    const bool predicting =
+        run.campaign.strategy == Strategy::predict_and_verify && FolderLock::holder(run.folder).has_value();
+    return predicting ? std::pair{std::string("running"), std::string("in the first prediction")}
+                      : std::pair{std::string("not started"), std::string("no stage has begun")};
   }
   const StageReport& stage = stages.back();
   const std::string place = fmt::format("{} stage of episode {}", shown_name(stage.kind), stage.episode);
@@ -183,7 +192,8 @@ int episode_limit(const RunRecord& run) {
 double wall_seconds_of(const json& episodes) {
   double sum = 0;
   for (const json& episode : episodes) {
-    sum += number_at(episode, "/dem/wall_seconds").value_or(0) + number_at(episode, "/tracer/wall_seconds").value_or(0);
+    for (const TaskKind kind : all_stages_of_episode())
+      sum += number_at(episode, fmt::format("/{}/wall_seconds", stage_name(kind))).value_or(0);
   }
   return sum;
 }
@@ -192,8 +202,9 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
   const Campaign& campaign = run.campaign;
   const std::optional<StageReport> prediction = read_prediction_report(run);
   const auto [state, description] =
-      stages.empty() && prediction ? std::pair{std::string("predicted"), std::string("a prediction; no stage was run")}
-                                   : state_of(run, stages);
+      stages.empty() && prediction && campaign.strategy == Strategy::march
+          ? std::pair{std::string("predicted"), std::string("a prediction; no stage was run")}
+          : state_of(run, stages);
   // What is drawn of tracer stages is drawn of the prediction too, as episode 0.
   std::vector<StageReport> drawn = stages;
   if (prediction) drawn.insert(drawn.begin(), *prediction);
@@ -222,6 +233,7 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
                    {"at_most", episode_limit(run)}}},
                  {"furnace", furnace_drawing(campaign)},
                  {"prediction", prediction_entry(prediction)},
+                 {"strategy", std::string(words::word_of(words::strategy, campaign.strategy))},
                  {"episodes", episodes_of(run, stages)},
                  {"results", results_of(stages)},
                  {"retries", retries_of(run)},
@@ -229,6 +241,7 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
   report["wall_seconds"] =
       wall_seconds_of(report["episodes"]) + number_at(report["prediction"], "/wall_seconds").value_or(0);
   report["ledger"] = ledger_of(report["episodes"]);
+  report["predict_and_verify"] = predict_and_verify(run, report);
   report["charts"] = {{"dem_history", dem_history(stages)},
                       {"tracer_history", tracer_history(stages)},
                       {"cohesive_zones", cohesive_zones(drawn)},

@@ -60,7 +60,18 @@ std::string StageReport::state_text() const {
   return readable ? "finished" : "damaged";
 }
 
-std::string shown_name(TaskKind kind) { return kind == TaskKind::dem ? "DEM" : "tracer"; }
+std::string shown_name(TaskKind kind) {
+  switch (kind) {
+    case TaskKind::dem:
+      return "DEM";
+    case TaskKind::predict:
+      return "prediction";
+    case TaskKind::correct:
+      return "correction";
+    default:
+      return "tracer";
+  }
+}
 
 StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) {
   StageReport stage;
@@ -89,12 +100,14 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
 std::vector<StageReport> read_stage_reports(const RunRecord& run) {
   std::vector<StageReport> stages;
   for (int episode = 1;; ++episode) {
-    for (const TaskKind kind : {TaskKind::dem, TaskKind::tracer}) {
+    for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
       StageReport stage = read_stage_report(run, episode, kind);
-      if (stage.state.condition == StageState::Condition::absent) {
+      const bool left_out = kind == TaskKind::predict || kind == TaskKind::correct;
+      if (stage.state.condition != StageState::Condition::absent) {
+        stages.push_back(std::move(stage));
+      } else if (!left_out) {
         return stages;
       }
-      stages.push_back(std::move(stage));
     }
   }
 }

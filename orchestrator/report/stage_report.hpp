@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orchestrator/run_folder.hpp"
+#include "orchestrator/stage_sequence.hpp"
 #include "orchestrator/stage_state.hpp"
 
 namespace cupola {

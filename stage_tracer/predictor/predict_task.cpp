@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schemas/files.hpp"
+#include "stage_tracer/predictor/correction.hpp"
 #include "stage_tracer/predictor/first_guess.hpp"
 #include "stage_tracer/predictor/predictor.hpp"
 #include "stage_tracer/previous_temperature.hpp"
@@ -65,8 +66,14 @@ ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task
   if (foam.rank() != 0) return ExitCode::done;
 
   Averages averages(campaign.species.size(), mesh.cells(), true);
-  const CellSpreading kernel(mesh, predictor.field().bed, kernel_diameter(campaign, predictor.field().charge));
-  averages.add(spread(predictor.contents(), kernel), campaign, 1.0);
+  CellContents contents = spread(predictor.contents(), predictor.kernel());
+  std::vector<double> melting_bias;
+  if (const auto input = task.inputs.find("correction"); input != task.inputs.end()) {
+    const MarchBias bias = read_march_bias(folder / input->second.file, mesh, campaign);
+    contents.temperature = corrected(campaign, contents, bias);
+    melting_bias = bias.melting;
+  }
+  averages.add(contents, campaign, 1.0);
   const Ledger ledger = predictor.ledger();
   MarchOutcome result{mesh, predictor.field(), averages, ledger};
   result.gas = &predictor.gas();
@@ -76,6 +83,8 @@ ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task
   result.wall_seconds_by_part = clock.seconds();
   for (const auto& [part, seconds] : result.wall_seconds_by_part) spdlog::info("{}: {:.3g} s", part, seconds);
   result.prediction = as_json(outcome, dem.has_value());
+  result.melting_bias = std::move(melting_bias);
+  result.more_cell_data[predicted_share_name] = predictor.share();
   write_result(folder, task, result);
   write_manifest(folder);
   spdlog::info("done: {} after {} iterations, {:.3g} s; energy residual {:.2g}, streamlines reach {:.1f} % of the bed",

@@ -8,6 +8,9 @@
 
 namespace cupola {
 
+/// Cell data of a prediction: the share f that its flux and storage follow.
+inline constexpr const char* predicted_share_name = "persistent_share";
+
 /// The granular field that follows the cohesive zone: the surrogate's alone, or that of the last DEM stage corrected by
 /// what the surrogate says the zone's shift changes, q = q_DEM + q_surrogate(f) - q_surrogate(f of the DEM stage).
 class PredictedField {

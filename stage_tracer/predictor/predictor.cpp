@@ -28,6 +28,8 @@ constexpr double least_known = 0.1;
 constexpr double largest_jump = 0.01;
 constexpr std::size_t looked_at = 3;
 constexpr double slow_decrease = 0.75;
+/// Share of the bed that lines should reach: a dead man is less than the rest.
+constexpr double least_reached = 0.75;
 
 /// rms over the bed of what changed, K: the gas weighted with the cells' volumes, species with their shares of the
 /// solids.
@@ -117,6 +119,7 @@ void Predictor::draw_lines(const std::vector<double>& share, const Settings& set
   {
     const auto running = clock.measure("granular flux");
     granular_.follow(share);
+    share_ = share;
   }
   const auto running = clock.measure("streamlines");
   std::vector<double> persistent_flux;
@@ -133,7 +136,8 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
   for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
     if (campaign_.species[s].softening) ore = temperatures_.solids[s];
   }
-  LaggedState state{temperatures_.gas, guessed_contents(ore), granular_.share(ore)};
+  LaggedState state{temperatures_.gas, guessed_contents(ore),
+                    settings.share != nullptr ? *settings.share : granular_.share(ore)};
   const auto [coldest, hottest] = temperature_range(campaign_);
   LaggedIteration lagged(mesh_, field().bed, coldest, hottest, granular_.charged_share());
   MeltingZone zone;
@@ -142,7 +146,8 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
   double tolerance = 20;
   bool held = false;
   for (int iteration = 0; iteration < settings.most_iterations; ++iteration) {
-    if (!held) draw_lines(state.share, settings, lines, clock);
+    const bool stay = held || settings.share != nullptr;
+    if (!stay || !lines) draw_lines(state.share, settings, lines, clock);
     {
       const auto running = clock.measure("flow");
       compose(state.contents);
@@ -153,12 +158,12 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
       }
     }
     Iteration record;
-    record.lines_moved = !held;
+    record.lines_moved = !stay;
     {
       const auto running = clock.measure("temperatures");
       const SteadyHeat::Result result =
-          heat_.solve({field(), granular_.packing(), granular_.sink(), *lines, bed_volume_, bed_}, gas_, state.contents,
-                      temperatures_, tolerance, most_evaluations);
+          heat_.solve({field(), granular_.packing(), granular_.sink(), *lines, bed_volume_, bed_, settings.tendency},
+                      gas_, state.contents, temperatures_, tolerance, most_evaluations);
       solids_ = result.solids;
       record.evaluations = result.evaluations;
       record.linear_iterations = result.linear_iterations;
@@ -175,7 +180,7 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
           "iteration {}: change {:.3g} K, {} evaluations with {} linear iterations (last correction {:.2g} K), zone at "
           "{:.3f} m{}",
           iteration + 1, record.change, record.evaluations, record.linear_iterations, record.correction,
-          record.zone_height, held ? ", lines held" : "");
+          record.zone_height, stay ? ", lines held" : "");
     }
     const double level = level_of(temperatures_);
     const double wanted = held ? std::max(settings.tolerance, settings.held_tolerance * level) : settings.tolerance;
@@ -184,8 +189,8 @@ Predictor::Outcome Predictor::solve(BedTemperatures temperatures, const Settings
       break;
     }
     tolerance = std::clamp(inner_over_outer * record.change, least_inner, 20.0);
-    lagged.advance(state, {temperatures_.gas, solids_.contents, held ? state.share : implied_share(zone)});
-    if (!held && only_lines_jump(outcome.iterations, level)) {
+    lagged.advance(state, {temperatures_.gas, solids_.contents, stay ? state.share : implied_share(zone)});
+    if (!stay && only_lines_jump(outcome.iterations, level)) {
       held = true;
       outcome.line_noise = record.change;
       lagged.begin_anew();
@@ -229,6 +234,8 @@ void Predictor::check_raceways() const {
 void Predictor::look_for_warnings(const MeltingZone& zone, Outcome& outcome) const {
   double volume = 0;
   double reached = 0;
+  double unreached = 0;
+  double unreached_height = 0;
   for (std::size_t c = 0; c < mesh_.cells(); ++c) {
     if (!field().bed[c]) continue;
     volume += mesh_.cell_volume[c];
@@ -236,9 +243,21 @@ void Predictor::look_for_warnings(const MeltingZone& zone, Outcome& outcome) con
     for (const auto& of_species : solids_.inflow) {
       for (std::size_t side = 0; side < 7; ++side) inflow += of_species[7 * c + side];
     }
-    if (inflow > 0) reached += mesh_.cell_volume[c];
+    if (inflow > 0) {
+      reached += mesh_.cell_volume[c];
+    } else {
+      unreached += mesh_.cell_volume[c];
+      unreached_height += mesh_.cell_volume[c] * mesh_.cell_centre[c][2];
+    }
   }
   outcome.reached = volume > 0 ? reached / volume : 0;
+  if (outcome.reached < least_reached) {
+    outcome.warnings.push_back(fmt::format(
+        "No path leads from the stock plane to {:.0f} % of the bed ({:.2g} m3, at {:.2g} m on average): it is taken as "
+        "coke at rest. Where it should move, enlarge the raceways' boxes, refine scene.mesh.cell, or lengthen "
+        "dem.window; where there is none, let the mesh begin higher.",
+        100 * (1 - outcome.reached), unreached, unreached_height / unreached));
+  }
   if (!outcome.converged) {
     outcome.warnings.push_back(fmt::format(
         "The prediction did not converge: the temperatures still changed by {:.3g} K in the last of {} iterations. "

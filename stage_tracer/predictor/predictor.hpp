@@ -31,6 +31,10 @@ class Predictor {
     double held_tolerance = 0.002;
     int most_iterations = 40;
     std::array<int, 2> lines_across{4, 2};  ///< streamlines along each stock face in x and in y
+    /// f, all cells: the flux and its lines follow this one and stay. Null: they follow the zone.
+    const std::vector<double>* share = nullptr;
+    /// K/s by which each species' temperature changes, [species][cell]. Null: the steady state.
+    const BySpecies* tendency = nullptr;
   };
   /// One outer iteration, for the report.
   struct Iteration {
@@ -54,6 +58,10 @@ class Predictor {
   Outcome solve(BedTemperatures temperatures, const Settings& settings, PartClock& clock);
 
   [[nodiscard]] const GranularField& field() const { return granular_.field(); }
+  /// f, all cells, that flux and storage follow.
+  [[nodiscard]] const std::vector<double>& share() const { return share_; }
+  [[nodiscard]] const BedTemperatures& temperatures() const { return temperatures_; }
+  [[nodiscard]] const CellSpreading& kernel() const { return kernel_; }
   [[nodiscard]] const CellContents& contents() const { return solids_.contents; }
   /// As the tracer stage's, of one second of the steady state; nothing is stored.
   [[nodiscard]] Ledger ledger() const;
@@ -81,6 +89,7 @@ class Predictor {
   SteadyHeat heat_;
   GasModel gas_;
   std::vector<double> empty_share_;
+  std::vector<double> share_;
   BedTemperatures temperatures_;
   SolidsOnLines solids_;
   BySpecies bed_volume_;
@@ -90,5 +99,9 @@ class Predictor {
 /// Makes the prediction of a task of kind `predict` and writes its `result.hdf`. Every rank runs it.
 /// @throws Failure
 ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task& task);
+
+/// Corrects the prediction of a task of kind `correct` by what the march that began with it has measured, and writes
+/// `result.hdf`. Every rank runs it. @throws Failure
+ExitCode correct(FoamCase& foam, const std::filesystem::path& folder, const Task& task);
 
 }  // namespace cupola

@@ -88,6 +88,9 @@ class SteadyHeat::Evaluation {
   /// @return what the temperatures would be in those of `from`
   BedTemperatures evaluate(const BedTemperatures& from) {
     SolidsSurroundings around{rate_, exchange_.felt_temperature(from.gas), conducted(from.solids)};
+    for (std::size_t s = 0; bed_.tendency != nullptr && s < around.source.size(); ++s) {
+      for (std::size_t c = 0; c < around.source[s].size(); ++c) around.source[s][c] -= (*bed_.tendency)[s][c];
+    }
     keep_in_range(around);
     solids_ = sweep_(bed_.lines, bed_.packing, bed_.sink, around, sum_);
     rest_where_nothing_passes(around);

@@ -42,6 +42,8 @@ class SteadyHeat {
     const Streamlines& lines;
     const BySpecies& volume;  ///< m3, [species][cell], of the composition
     const BedState& state;
+    /// K/s by which the temperatures of each species still change, [species][cell]; null: steady
+    const BySpecies* tendency = nullptr;
   };
   struct Result {
     SolidsOnLines solids;

@@ -10,6 +10,7 @@ import { provenanceSection } from "./provenance.js";
 import { qualitySection } from "./quality.js";
 import { stagesSection } from "./stages.js";
 import { studyPage } from "./study.js";
+import { verifiedSection } from "./verified.js";
 import { temperatureFigure, zoneHeightFigure } from "./time_series.js";
 
 function reportPage(report) {
@@ -24,6 +25,7 @@ function reportPage(report) {
     courseFigures.length ? element("div", { class: "charts" }, courseFigures) : null,
     mapsSection(report),
     convergenceSection(report),
+    verifiedSection(report),
     accuracySection(report),
     ledgerSection(report),
     qualitySection(report),

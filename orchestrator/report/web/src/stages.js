@@ -23,7 +23,7 @@ function parcelsFigure(report) {
 
 /** Wall time of every stage, split by part; what no part claims is `other`. */
 function wallTimes(report) {
-  return report.episodes.flatMap(({ index, dem, tracer }) => [["DEM", dem], ["tracer", tracer]].filter(([, stage]) => stage?.wall_seconds).map(([name, stage]) => {
+  return report.episodes.flatMap(({ index, dem, predict, tracer, correct }) => [["DEM", dem], ["prediction", predict], ["tracer", tracer], ["correction", correct]].filter(([, stage]) => stage?.wall_seconds).map(([name, stage]) => {
     const parts = { ...(stage.wall_seconds_by_part ?? {}) };
     const claimed = Object.values(parts).reduce((sum, value) => sum + value, 0);
     if (stage.wall_seconds - claimed > 0.01 * stage.wall_seconds) parts.other = stage.wall_seconds - claimed;
