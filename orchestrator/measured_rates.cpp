@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
@@ -41,6 +42,21 @@ json read_or_empty(const fs::path& file) {
 
 /// How much was done, and the core seconds it took.
 json work(double units, double wall, double ranks) { return {{"units", units}, {"core_seconds", wall * ranks}}; }
+
+/// Half of the work was done faster, half slower: a stage on a machine that was busy with something else, or one too
+/// small to show more than its overheads, does not count for much.
+/// @param measured values with their weights, at least one
+double weighted_median(std::vector<std::pair<double, double>> measured) {
+  std::sort(measured.begin(), measured.end());
+  double total = 0, below = 0;
+  for (const auto& [value, weight] : measured) total += weight;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    below += measured[i].second;
+    if (i + 1 < measured.size() && below == total / 2) return (measured[i].first + measured[i + 1].first) / 2;
+    if (below >= total / 2) return measured[i].first;
+  }
+  return measured.back().first;
+}
 
 double wall_of(const json& stage, std::initializer_list<const char*> names) {
   double sum = 0;
@@ -89,14 +105,14 @@ Rates measured_rates(const std::optional<fs::path>& file) {
   const json stages = known["hosts"].value(host_name(), json::array());
   std::string latest;
   for (const Part& part : parts) {
-    double units = 0, seconds = 0;
+    std::vector<std::pair<double, double>> measured;  // seconds a unit, units
     for (const json& stage : stages) {
       const json& done = stage.at("work");
       if (!done.contains(part.name)) continue;
-      units += done[part.name].value("units", 0.);
-      seconds += done[part.name].value("core_seconds", 0.);
+      const double units = done[part.name].value("units", 0.), seconds = done[part.name].value("core_seconds", 0.);
+      if (units > 0 && seconds > 0) measured.emplace_back(seconds / units, units);
     }
-    if (units > 0 && seconds > 0) rates.*part.rate = seconds / units;
+    if (!measured.empty()) rates.*part.rate = weighted_median(std::move(measured));
   }
   for (const json& stage : stages) latest = std::max(latest, stage.value("written", ""));
   if (!stages.empty())

@@ -9,6 +9,8 @@ seconds=$2
 here=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$build/fuzz"
 failed=0
+seed=${FUZZ_SEED:-$((RANDOM * 32768 + RANDOM + 1))}
+echo "seed $seed (FUZZ_SEED=$seed repeats it)"
 for name in campaign fields; do
   mkdir -p "$build/fuzz/$name"
   limits=(-timeout=25 -malloc_limit_mb=32 -rss_limit_mb=2048 -max_len=262144 -artifact_prefix="$build/fuzz/$name-broken-")
@@ -22,7 +24,7 @@ for name in campaign fields; do
   begin=$SECONDS
   files=("$here/tests/fuzz/corpus/$name"/*)
   if ! "$build/bin/fuzz_$name" "${limits[@]}" "${files[@]}" > "$log" 2>&1 \
-    || ! "$build/bin/fuzz_$name" "${limits[@]}" -seed=1 -max_total_time="$seconds" -print_final_stats=1 "$build/fuzz/$name" \
+    || ! "$build/bin/fuzz_$name" "${limits[@]}" -seed="$seed" -max_total_time="$seconds" -print_final_stats=1 "$build/fuzz/$name" \
       "$here/tests/fuzz/corpus/$name" >> "$log" 2>&1; then
     tail -n 60 "$log"
     echo "FAILED: fuzz_$name; its input: $build/fuzz/$name-broken-*"

@@ -15,4 +15,14 @@ std::optional<std::filesystem::path> last_finished_stage(const std::filesystem::
   return last;
 }
 
+bool has_ended(const std::filesystem::path& run_folder) {
+  bool ended = false;
+  for (const nlohmann::json& record : read_run(run_folder).journal) {
+    const std::string event = record.value("event", "");
+    if (event == "campaign-ended") ended = true;
+    if (event == "stage-started") ended = false;
+  }
+  return ended;
+}
+
 }  // namespace cupola

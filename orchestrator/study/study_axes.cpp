@@ -65,13 +65,14 @@ const std::string& key_about(const CampaignError& error, const StudyAxis& axis) 
 void check_places(const StudyAxis& axis, const std::vector<CampaignKey>& keys, std::size_t number,
                   const StudyScene& scene, const Study& study, StudyErrors& errors) {
   const std::string base = seen_by_dem_stage(study.scene);
-  bool seen = false;
+  bool seen = false, all_read = true;
   for (std::size_t i = 0; i < axis.size(); ++i) {
     Json root = scene.changed;
     for (std::size_t k = 0; k < keys.size(); ++k) keys[k].set(root, axis.values[k][i]);
     const ReadCampaign read = scene.read(root);
     for (const CampaignError& error : read.errors)
       errors.of_campaign(path_of(place_of(number, key_about(error, axis)), i), {error});
+    all_read = all_read && read.ok();
     if (!read.ok()) continue;
     for (std::size_t j = 0; j < i; ++j) {
       bool same = true;
@@ -85,7 +86,7 @@ void check_places(const StudyAxis& axis, const std::vector<CampaignKey>& keys, s
     errors.at_key(place, fmt::format("the DEM stage sees `{}`, and with `stage: tracer` it is run once for all "
                                      "settings: write `stage: episode`",
                                      first));
-  if (study.stage == StudyStage::dem && !seen && !first.starts_with("launch") && axis.size() > 1)
+  if (study.stage == StudyStage::dem && !seen && all_read && !first.starts_with("launch") && axis.size() > 1)
     errors.at_key(place, fmt::format("a DEM stage does not see `{}`: write `stage: tracer`", first));
 }
 

@@ -7,6 +7,7 @@
 #include "orchestrator/study/study_fields.hpp"
 #include "orchestrator/study/study_reader.hpp"
 #include "schemas/failure.hpp"
+#include "schemas/files.hpp"
 
 namespace cupola {
 namespace {
@@ -62,10 +63,17 @@ void read_run_reference(const std::string& path, Study& study, StudyErrors& erro
   study.reference.sentence = "the run " + path;
   try {
     const TaskKind kind = study.stage == StudyStage::dem ? TaskKind::dem : TaskKind::tracer;
-    if (!last_finished_stage(study.reference.run, kind))
+    const auto last = last_finished_stage(study.reference.run, kind);
+    if (!last)
       errors.at("reference.run", fmt::format("{}: no {} stage of this run has finished: resume it first, or take "
                                              "another reference",
                                              study.reference.run.string(), kind == TaskKind::dem ? "DEM" : "tracer"));
+    else if (!has_ended(study.reference.run))
+      errors.at("reference.run", fmt::format("{}: this campaign has not come to its end: resume it first, or take "
+                                             "another reference",
+                                             study.reference.run.string()));
+    else
+      verify_manifest(*last);
   } catch (const Failure& failure) {
     errors.at("reference.run", failure.what());
   }

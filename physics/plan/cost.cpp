@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace cupola {
 namespace {
@@ -23,6 +24,8 @@ Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTime
   Cost cost;
   cost.rates = rates;
   cost.ranks = std::max(1, campaign.launch.ranks);
+  const unsigned cores = std::thread::hardware_concurrency();
+  cost.busy_cores = campaign.launch.slurm || cores == 0 ? cost.ranks : std::min<double>(cost.ranks, cores);
   cost.most_episodes = campaign.converged.at_most;
   cost.fewest_episodes = std::min(cost.most_episodes, 2 + std::max(1, campaign.converged.for_episodes));
   cost.dem_process_seconds = campaign.dem.at_most;

@@ -26,11 +26,12 @@ struct Cost {
   double dem_memory = 0, tracer_memory = 0;  ///< bytes at most, over all ranks (docs/models.md)
   Rates rates;                               ///< what it rests on
   int ranks = 1;
+  double busy_cores = 1;  ///< ranks that really work at once: without Slurm no more than this machine has cores
   int fewest_episodes = 0, most_episodes = 0;  ///< a remaining change can be extrapolated from the third episode on
-  [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / ranks; }
+  [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / busy_cores; }
   /// How long a stage that is asked to stop goes on, before it writes its checkpoint: a block, or a step, at most.
-  [[nodiscard]] double dem_block_wall_seconds() const { return dem_core_seconds / dem_blocks / ranks; }
-  [[nodiscard]] double tracer_step_wall_seconds() const { return tracer_core_seconds / tracer_steps / ranks; }
+  [[nodiscard]] double dem_block_wall_seconds() const { return dem_core_seconds / dem_blocks / busy_cores; }
+  [[nodiscard]] double tracer_step_wall_seconds() const { return tracer_core_seconds / tracer_steps / busy_cores; }
 };
 
 Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,

@@ -10,6 +10,25 @@ namespace cupola {
 
 namespace {
 
+std::string convection_piece(const Heat& heat) {
+  const char* law = heat.convection == Heat::Convection::gunn    ? "Gunn"
+                    : heat.convection == Heat::Convection::wakao ? "Wakao"
+                                                                 : "Ranz-Marshall";
+  return fmt::format("{} x {}", law, heat.nusselt_factor);
+}
+
+std::string conduction_piece(const Heat& heat) {
+  switch (heat.bed_conduction) {
+    case Heat::BedConduction::zehner_bauer_schluender:
+      return fmt::format("Zehner-Bauer-Schluender with radiation, emissivity {}", heat.emissivity);
+    case Heat::BedConduction::mixture:
+      return "mixture of gas and grains by volume";
+    case Heat::BedConduction::carson:
+      break;
+  }
+  return "Carson";
+}
+
 std::string dem_gas_piece(const Campaign& campaign) {
   const auto drag = drag_law_name(campaign.drag);
   switch (campaign.dem.gas) {
@@ -66,20 +85,23 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
                  : "dem.void_fraction is divided: parcels are shared out over the cells they lie in");
   piece("motion of the tracers", true, "along the granular field of the DEM stage", cost.motion);
   piece("gas in the tracer stage", tracer_gas,
-        tracer_gas ? fmt::format("Darcy-Forchheimer, {} drag", drag_law_name(campaign.drag))
+        tracer_gas ? fmt::format("{}, {} drag",
+                                 campaign.tracer.gas == TracerSettings::GasModel::navier_stokes ? "Navier-Stokes"
+                                                                                                : "Darcy-Forchheimer",
+                                 drag_law_name(campaign.drag))
                    : (gas ? "tracer.gas is none" : no_gas),
         cost.gas_flow);
   piece("gas energy", heat && tracer_gas,
         heat ? (tracer_gas ? "steady, with what the solids exchange" : "no gas in the tracer stage") : cold,
         cost.gas_energy);
   piece("heat between gas and solids", heat && tracer_gas,
-        heat ? (tracer_gas ? fmt::format("Ranz-Marshall x {}", campaign.heat->nusselt_factor)
-                           : "no gas in the tracer stage")
-             : cold,
-        cost.exchange);
+        heat ? (tracer_gas ? convection_piece(*campaign.heat) : "no gas in the tracer stage") : cold, cost.exchange);
+  const bool intragrain = heat && campaign.heat->intragrain_resistance;
+  piece("resistance inside the grain", intragrain,
+        !heat ? cold : (intragrain ? "Biot correction of the exchange" : "heat.intragrain_resistance is off"));
   piece("gas conduction", heat && tracer_gas,
         heat ? (tracer_gas ? "Syamlal-Gidaspow" : "no gas in the tracer stage") : cold);
-  piece("conduction within a species", heat, heat ? "Carson" : cold, cost.conduction);
+  piece("conduction within a species", heat, heat ? conduction_piece(*campaign.heat) : cold, cost.conduction);
   piece("exchange between layers", heat && layered,
         !heat ? cold : (layered ? "layers of different species touch" : "no layers of single species"));
   const bool loss = heat && campaign.scene.heat_loss.has_value();
@@ -90,6 +112,15 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
                       : "scene.walls.heat_loss is absent"));
   piece("softening and melting", heat && softens,
         !heat ? cold : (softens ? "a species softens (species.softening)" : "no species softens"));
+  const bool latent = heat && std::any_of(campaign.species.begin(), campaign.species.end(), [](const Species& species) {
+                        return species.softening && species.softening->latent_heat > 0;
+                      });
+  piece("latent heat of melting", latent,
+        !heat ? cold : (latent ? "taken up between softening and melting" : "no species.softening.latent_heat"));
+  const bool rings = std::any_of(campaign.charging.rings.begin(), campaign.charging.rings.end(),
+                                 [](const auto& ring) { return ring.has_value(); });
+  piece("charging rings", rings,
+        rings ? "layers laid between two |x| (charging.layers.ring)" : "layers over the whole width");
   piece(
       "raceways", !campaign.raceways.empty(),
       campaign.raceways.empty() ? "none given" : fmt::format("{} boxes that take coke away", campaign.raceways.size()));

@@ -136,6 +136,10 @@ void judge_drag(const Campaign& campaign, Plan& plan) {
 }
 
 void judge_bed(const Campaign& campaign, Plan& plan) {
+  if (plan.cost.busy_cores < plan.cost.ranks)
+    plan.warnings.push_back(
+        fmt::format("launch.ranks is {}, but this machine has {:.0f} cores: ranks take turns on them", plan.cost.ranks,
+                    plan.cost.busy_cores));
   // Wider parcels come in lumps: their shares of cells are found by points.
   constexpr double widest = 2;  // cells
   for (const SpeciesPlan& species : plan.species) {

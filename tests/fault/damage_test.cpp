@@ -9,6 +9,7 @@
 #include "orchestrator/run_check.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/stage_state.hpp"
+#include "orchestrator/study/study_file.hpp"
 #include "schemas/checkpoint_seal.hpp"
 #include "schemas/files.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -159,6 +160,28 @@ TEST_F(Damage, ATornLastLineOfTheJournalIsNone) {
   }
   std::ofstream(file, std::ios::binary) << text.substr(0, last) << std::string(100, '\0');
   EXPECT_EQ(cupola::read_journal(file).size(), lines - 1) << "blocks a power cut left empty";
+}
+
+TEST_F(Damage, OfTheRunThatAStudyRefersToIsFoundBeforeAnythingRuns) {
+  const fs::path study = folder_.path() / "study.yaml";
+  cupola::write_text_atomically(
+      study, "study: against-a-run\nscene: " + (run_ / "campaign.yaml").string() +
+                 "\nstage: tracer\nvary:\n  - tracer.time_step: [10 s, 50 s]\nreference: {run: " + run_.string() +
+                 "}\nmetrics: [temperature]\n");
+  EXPECT_EQ(to_text(cupola::read_study(study).errors), "");
+  fs::path result;
+  for (const auto& entry : fs::recursive_directory_iterator(run_))
+    if (entry.path().filename() == "result.hdf" && entry.path().string().find("/002/tracer/") != std::string::npos)
+      result = entry.path();
+  {
+    const FlippedBit damage(result, fs::file_size(result) / 2, 3);
+    EXPECT_THAT(to_text(cupola::read_study(study).errors), HasSubstr("result.hdf: other content"));
+  }
+  // As one that was stopped before its end: the journal without its last lines.
+  std::string journal = cupola::read_text(run_ / "journal.jsonl");
+  journal.resize(journal.rfind('\n', journal.find("\"event\":\"campaign-ended\"")) + 1);
+  cupola::write_text_atomically(run_ / "journal.jsonl", journal);
+  EXPECT_THAT(to_text(cupola::read_study(study).errors), HasSubstr("has not come to its end: resume it first"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace cupola {
 namespace {
 
 using test::paper_furnace;
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(Charge, RatesOfThePaper) {
@@ -207,6 +208,30 @@ TEST(Plan, TheTimeIsSplitByPieceOfPhysicsAndWhatIsOffTakesNone) {
   const Plan bare = make_plan(campaign);
   EXPECT_EQ(bare.cost.parts.gas_flow + bare.cost.parts.dem_gas, 0);
   EXPECT_NEAR(cost_of_pieces(bare), bare.cost.parts.contacts + bare.cost.parts.motion, 1e-9);
+}
+
+TEST(Plan, PiecesAreNamedAsTheCampaignHasThem) {
+  Campaign campaign = paper_furnace();
+  EXPECT_THAT(plan_text(make_plan(campaign)),
+              AllOf(HasSubstr("Darcy-Forchheimer"), HasSubstr("Ranz-Marshall x"), HasSubstr("Carson"),
+                    HasSubstr("off resistance inside the grain"), HasSubstr("off charging rings")));
+  campaign.tracer.gas = TracerSettings::GasModel::navier_stokes;
+  campaign.heat->convection = Heat::Convection::gunn;
+  campaign.heat->bed_conduction = Heat::BedConduction::zehner_bauer_schluender;
+  campaign.heat->intragrain_resistance = true;
+  EXPECT_THAT(plan_text(make_plan(campaign)),
+              AllOf(HasSubstr("Navier-Stokes"), HasSubstr("Gunn x"), HasSubstr("with radiation"),
+                    HasSubstr("on  resistance inside the grain")));
+}
+
+TEST(Plan, RanksBeyondTheMachinesCoresTakeTurns) {
+  Campaign campaign = paper_furnace();
+  campaign.launch.ranks = 1;
+  const Plan one = make_plan(campaign);
+  campaign.launch.ranks = 4096;
+  const Plan many = make_plan(campaign);
+  EXPECT_NEAR(many.cost.episode_wall_seconds(), one.cost.episode_wall_seconds() / many.cost.busy_cores, 1e-9);
+  EXPECT_THAT(plan_text(many), HasSubstr("take turns"));
 }
 
 TEST(Plan, MeasuredRatesTakeThePlaceOfTheBuiltInOnes) {
