@@ -51,6 +51,56 @@ const lookAtCharts = () => Object.fromEntries([...document.querySelectorAll("fig
   return [figure.dataset.chart, { kind: svg ? "svg" : canvas ? "canvas" : "none", marks, colours, width: box.width, height: box.height }];
 }));
 
+/** In the page: entries of legends that reach into their chart's frame, as `chart: entry`. */
+const legendsOverCharts = (entries) => [...document.querySelectorAll("figure[data-chart]")].flatMap((figure) => {
+  const frame = [...figure.querySelectorAll('.drawing svg path[stroke="#7b8494"]')].map((path) => path.getBoundingClientRect()).filter(({ height }) => height > 50);
+  if (!frame.length) return [];
+  const top = Math.min(...frame.map((line) => line.top));
+  return [...figure.querySelectorAll(".drawing svg text")].filter((text) => entries.includes(text.textContent) && text.getBoundingClientRect().bottom > top)
+    .map((text) => `${figure.dataset.chart}: ${text.textContent}`);
+});
+const legendEntries = ["temperature", "cohesive zone", "granular velocity", "granular velocity: standard error", "tracers' time step: estimate",
+  "gas: heat not accounted for", "temperature: change still to come"];
+
+/** In the page: what the label of the criterion's line lies over. */
+const underTheCriterion = () => {
+  const texts = [...document.querySelectorAll('figure[data-chart="convergence"] .drawing svg text')];
+  const label = texts.find((text) => text.textContent === "met below")?.getBoundingClientRect();
+  return label ? texts.filter((text) => {
+    const box = text.getBoundingClientRect();
+    return text.textContent !== "met below" && box.left < label.right && box.right > label.left && box.top < label.bottom && box.bottom > label.top;
+  }).map((text) => text.textContent) : [];
+};
+
+/** In the page: tables of which no number is seen without moving them sideways. */
+const tablesWithoutNumbers = () => [...document.querySelectorAll(".scroll table")].filter((table) => table.offsetParent !== null)
+  .flatMap((table) => {
+    const numbers = [...table.querySelectorAll("tbody tr:first-child td")].filter((cell) => /^[\d−-]/.test(cell.textContent));
+    const seen = document.documentElement.clientWidth;
+    return numbers.length && numbers[0].getBoundingClientRect().right > seen ? [table.textContent.slice(0, 60)] : [];
+  });
+
+/** Prints, and looks at the page as it is laid out for paper. */
+async function print(page, file) {
+  await page.evaluate(() => matchMedia("print").addEventListener("change", ({ matches }) => {
+    if (!matches) return;
+    const width = document.documentElement.getBoundingClientRect().width;
+    window.onPaper = {
+      width,
+      cut: [...document.querySelectorAll("table")].filter((table) => table.getBoundingClientRect().right > width + 1).map((table) => table.textContent.slice(0, 60)),
+      closed: [...document.querySelectorAll("details")].filter((panel) => panel.lastElementChild.getBoundingClientRect().height < 20
+        || !panel.lastElementChild.checkVisibility({ contentVisibilityAuto: true })).map((panel) => panel.textContent.slice(0, 60)),
+    };
+  }));
+  writeFileSync(file, await page.pdf({ format: "A4" }));
+  const paper = await page.evaluate(() => window.onPaper);
+  console.log("on paper:", paper);
+  assert(paper, "it was not laid out for paper");
+  assert(paper.width < 720, `the page is shrunk on paper: laid out ${paper.width} pixels wide, where A4 has 703`);
+  assert.deepEqual(paper.closed, [], "closed panels do not print");
+  assert.deepEqual(paper.cut, [], "tables are cut off on paper");
+}
+
 /** Goes through the page with the Tab key alone: everything that can be used is reached, and says what it is. */
 async function useKeys(page, charts) {
   const reached = new Set();
@@ -128,8 +178,11 @@ try {
         assert(lines.length > 1, `the CSV of ${name} has no rows`);
         assert(lines.every((line) => line.split(",").length === lines[0].split(",").length), `the CSV of ${name} is ragged`);
       }
-      writeFileSync(join(outputFolder, "report.pdf"), await page.pdf({ format: "A4" }));
     }
+    assert.deepEqual(await page.evaluate(legendsOverCharts, legendEntries), [], "legends lie over charts");
+    assert.deepEqual(await page.evaluate(underTheCriterion), [], "\"met below\" lies over other text");
+    if (width < 1000) assert.deepEqual(await page.evaluate(tablesWithoutNumbers), [], "tables show no number");
+    if (width > 1000) await print(page, join(outputFolder, "report.pdf"));
     assert.deepEqual(complaints, [], "the page complains");
     await page.close();
   }

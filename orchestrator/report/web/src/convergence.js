@@ -2,7 +2,7 @@
 import { lines } from "./colours.js";
 import { kelvin, metres, number, percent } from "./format.js";
 import { element, figure, table } from "./page.js";
-import { axis } from "./time_series.js";
+import { axis, legendHeight } from "./time_series.js";
 
 const rules = [
   { key: "temperature", name: "temperature", figure: (value) => percent(value), wanted: ({ temperature }) => percent(temperature) },
@@ -33,8 +33,8 @@ export function convergenceSection(report) {
     children.push(element("div", { class: "charts" }, figure({
       name: "convergence", title: "Remaining change over what was asked for", height: 300,
       note: `Below 1 is met; ${report.criteria.for} episode${report.criteria.for === 1 ? "" : "s"} on end must meet all. Temperature and zone: the change still to come, extrapolated from successive episodes; velocity: difference of two measurements over their joint standard error.`,
-      options: () => ({
-        grid: { left: 62, right: 16, top: 36, bottom: 46 },
+      options: (drawing) => ({
+        grid: { left: 62, right: 16, top: legendHeight(judged.map(({ name }) => name), drawing.clientWidth), bottom: 46 },
         legend: { top: 0, left: 0, textStyle: { color: "#3a4356" } },
         tooltip: { trigger: "axis", confine: true, valueFormatter: (value) => number(value, 3) },
         xAxis: axis("episode", { type: "category", nameGap: 28, data: episodes.map(({ index }) => `${index}`) }),
@@ -42,7 +42,7 @@ export function convergenceSection(report) {
         series: judged.map(({ name, points }, position) => ({
           name, type: "line", color: lines[position], symbol: ["circle", "rect", "triangle"][position], symbolSize: 9, lineStyle: { width: 2 },
           data: points.map(([index, value]) => [`${index}`, value]),
-          markLine: position === 0 ? { silent: true, symbol: "none", lineStyle: { color: "#0b6e4f", width: 2, type: "solid" }, label: { formatter: "met below", position: "insideEndBottom", color: "#0b6e4f" }, data: [{ yAxis: 1 }] } : undefined,
+          markLine: position === 0 ? { silent: true, symbol: "none", lineStyle: { color: "#0b6e4f", width: 2, type: "solid" }, label: { formatter: "met below", position: "insideStartTop", color: "#0b6e4f" }, data: [{ yAxis: 1 }] } : undefined,
         })),
       }),
       rows: () => [["episode", ...rules.map(({ key }) => `${key}_change_over_criterion`)], ...episodes.map(({ index, change }) => [index, ...rules.map(({ key }) => change[key])])],

@@ -27,7 +27,7 @@ export function provenanceSection(report) {
   const { provenance, versions } = report;
   const { cupola, ...libraries } = versions;
   const entries = [
-    ["to compute it again", provenance.command], ["run folder", report.run_folder], ["started", report.started], ["report written", report.file_written],
+    ["to compute it again", provenance.command], ["ranks", provenance.ranks_changed], ["run folder", report.run_folder], ["started", report.started], ["report written", report.file_written],
     ["host", provenance.hosts.join(", ")], ["started or resumed", provenance.starts.length === 1 ? "once" : `${provenance.starts.length} times`], ["random seed of the campaign", report.random_seed],
     ["campaign (hash)", report.campaign_hash], ["mesh (hash)", report.mesh_hash], ["cupola", cupola],
     ["built with", Object.entries(libraries).map(([name, version]) => `${name} ${version}`).join(", ")],

@@ -35,6 +35,21 @@ export const axis = (name, extra = {}) => ({
   axisLabel: { color: "#3a4356", hideOverlap: true, ...(extra.type === "category" ? {} : { formatter: tick }), ...extra.axisLabel },
 });
 
+/** Height of a legend that stands above the grid, from its entries and the width it has. */
+export function legendHeight(names, width, mark = 25) {
+  let rows = 1;
+  let used = 0;
+  for (const name of names) {
+    const entry = mark + 15 + 7 * name.length;
+    if (used > 0 && used + entry > width) {
+      rows += 1;
+      used = 0;
+    }
+    used += entry;
+  }
+  return 22 * rows + 14;
+}
+
 /** Series over time with a legend. @param series [{name, key, colour}] */
 export function timeOption({ episodes, series, divisor, xName, yName, format }) {
   return {
