@@ -112,6 +112,7 @@ class Results {
             {"program_version", program_version},
             {"file_written", utc_now()},
             {"study_text", read_text(study_.file)},
+            {"scene_text", read_text(study_.scene_file)},
             {"reference", study_.reference.sentence},
             {"axes", axes},
             {"metrics", metrics},
