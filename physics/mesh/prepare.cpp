@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 #include "physics/mesh/bed_mesh.hpp"
 #include "physics/mesh/foam_dictionaries.hpp"
@@ -54,6 +55,16 @@ void check_inlet_names(const Campaign& campaign) {
   }
 }
 
+/// What checkMesh marks with asterisks, on one line.
+std::string marked_lines(const std::string& printed) {
+  std::istringstream lines(printed);
+  std::string found;
+  for (std::string line; std::getline(lines, line);)
+    if (const auto mark = line.find("***"); mark != std::string::npos)
+      found += (found.empty() ? "" : "; ") + line.substr(line.find_first_not_of('*', mark));
+  return found;
+}
+
 void check_mesh(const std::filesystem::path& case_folder) {
   const std::string printed = run_foam_tool("checkMesh", {"-constant"}, case_folder);
   if (printed.find("Mesh OK") == std::string::npos) {
@@ -64,9 +75,9 @@ void check_mesh(const std::filesystem::path& case_folder) {
           .at("file", log.string());
     }
     throw Failure(ExitCode::wrong_input,
-                  fmt::format("checkMesh finds the mesh wanting (see {}): cells too flat, or walls too steep for "
-                              "scene.mesh.cell; change it, or the profile",
-                              log.string()))
+                  fmt::format("checkMesh finds the mesh wanting ({}; an aspect ratio of 1000 is its limit; see {}): "
+                              "cells too flat, or walls too steep for scene.mesh.cell; change it, or the profile",
+                              marked_lines(printed), log.string()))
         .at("key", "scene.mesh");
   }
 }

@@ -149,7 +149,7 @@ std::vector<Extreme> extremes() {
          c.tracer.duration = 3;
          c.scene.gas->inlets[0].size = c.scene.gas->inlets[1].size = {0.4, 0.13};
        },
-       "cells too flat"},
+       "aspect ratio of 1000 is its limit"},
   };
 }
 
