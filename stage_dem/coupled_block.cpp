@@ -6,7 +6,8 @@
 
 namespace cupola {
 
-double advance_with_gas(Engine& engine, SolidsOnMesh& solids, DemGas& gas, double step, long steps) {
+double advance_with_gas(Engine& engine, SolidsOnMesh& solids, DemGas& gas, double step, long steps,
+                        const std::function<void(double)>& seen) {
   using Clock = std::chrono::steady_clock;
   double seconds = 0;
   long left = steps;
@@ -19,6 +20,7 @@ double advance_with_gas(Engine& engine, SolidsOnMesh& solids, DemGas& gas, doubl
     const long now = parts > 1 ? std::max(1L, left / parts) : left;
     gas.update(solids, owned, static_cast<double>(now) * step);
     engine.set_forces(gas.forces(solids, owned));
+    if (seen) seen(static_cast<double>(now) * step);
     left -= now;
     seconds += std::chrono::duration<double>(Clock::now() - begun).count();
     return now;

@@ -57,6 +57,8 @@ dem_proof(05_quasi_steady dem_gas_proofs *TerminalVelocity*/0 1)
 dem_proof(05_transient dem_gas_proofs *TerminalVelocity*/1 1)
 dem_proof(06_quasi_steady dem_gas_proofs *ErgunBed*/0 1)
 dem_proof(06_transient dem_gas_proofs *ErgunBed*/1 1)
+dem_proof(06_frozen dem_gas_proofs FrozenGas.* 1)
+dem_proof(07_fluidisation dem_gas_proofs Fluidisation.OfParcels* 1)
 dem_proof(09_gas_1 dem_gas_proofs GasMomentum.* 1)
 dem_proof(09_gas_2 dem_gas_proofs GasMomentum.Given* 2)
 

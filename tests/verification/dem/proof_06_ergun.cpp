@@ -117,6 +117,25 @@ TEST_P(ErgunBed, DropsThePressureThatErgunsLawGivesForTheVoidFractionProjected) 
     }
 }
 
+TEST(FrozenGas, KeepsItsFlowWhenTheBedChanges) {
+  GasScene scene(bed(DemSettings::GasModel::frozen, 100, 2));
+  for (const auto model : {DemSettings::GasModel::frozen, DemSettings::GasModel::quasi_steady}) {
+    const Campaign campaign = bed(model, 100, 2);
+    auto parcels = poured(campaign, 0.36);
+    SolidsOnMesh solids(scene.mesh, campaign, MPI_COMM_WORLD);
+    const auto gas = make_dem_gas(scene.foam, scene.mesh, campaign,
+                                  std::vector<double>(scene.mesh.cells(), gas_temperature), MPI_COMM_WORLD);
+    solids.divide(parcels);
+    gas->update(solids, parcels, 0);
+    const auto before = gas->pressure();
+    parcels.resize(parcels.size() / 2);
+    solids.divide(parcels);
+    gas->update(solids, parcels, 10);
+    EXPECT_EQ(gas->pressure() == before, model == DemSettings::GasModel::frozen);
+    EXPECT_EQ(gas->forces(solids, parcels).size(), parcels.size());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Gas, ErgunBed,
                          testing::Values(DemSettings::GasModel::quasi_steady, DemSettings::GasModel::transient));
 
