@@ -93,15 +93,13 @@ const Softening& softening_of(const Campaign& campaign) {
   return *softening;
 }
 
-/// Adds a bias to the ore temperature; its isotherms move with it.
-void shift(MeltingZone& zone, const BedMesh& mesh, const Campaign& campaign, const std::vector<double>& bias) {
+/// Another ore temperature, made monotone; its isotherms are looked for anew.
+void replace(MeltingZone& zone, const BedMesh& mesh, const Campaign& campaign, const std::vector<double>& by) {
   for (const Column& column : zone.columns) {
-    std::vector<double> shifted;
-    for (const std::int64_t cell : column.cells) {
-      shifted.push_back(std::max(zone.ore_temperature[cell] + bias[cell], campaign.charging.temperature));
-    }
-    shifted = isotonic(shifted, std::vector<double>(shifted.size(), 1.0));
-    for (std::size_t i = 0; i < shifted.size(); ++i) zone.ore_temperature[column.cells[i]] = shifted[i];
+    std::vector<double> values;
+    for (const std::int64_t cell : column.cells) values.push_back(std::max(by[cell], campaign.charging.temperature));
+    values = isotonic(values, std::vector<double>(values.size(), 1.0));
+    for (std::size_t i = 0; i < values.size(); ++i) zone.ore_temperature[column.cells[i]] = values[i];
   }
   const Softening& softening = softening_of(campaign);
   zone.melted = find_isotherm(mesh, zone.columns, zone.ore_temperature, softening.melted);
@@ -124,7 +122,7 @@ void write_temperatures(FieldFileWriter& file, const Task& task, const MarchOutc
   summary["energy_in_bed"] = outcome.ledger.energy_now;
   if (!can_melt(campaign)) return;
   MeltingZone zone = find_melting_zone(outcome.mesh, campaign, outcome.field, volume, temperature);
-  if (!outcome.melting_bias.empty()) shift(zone, outcome.mesh, campaign, outcome.melting_bias);
+  if (!outcome.ore_temperature.empty()) replace(zone, outcome.mesh, campaign, outcome.ore_temperature);
   file.cell_data("ore_temperature", zone.ore_temperature);
   std::vector<double> x;
   std::vector<double> area;

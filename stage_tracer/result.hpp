@@ -52,11 +52,11 @@ struct MarchOutcome {
   std::map<std::string, double> wall_seconds_by_part{};
   double motion_imbalance = 1;  ///< largest over mean time of the ranks in moving tracers
   std::int64_t cells_at_floor = 0;
-  std::vector<double> largest_biot{};  ///< of each species, in the last step
-  nlohmann::json gas_comparison{};     ///< of both gas models, where asked for
-  nlohmann::json prediction{};         ///< of a prediction: how it came about; null for a march
-  nlohmann::json correction{};         ///< of a corrected prediction: what the march has measured
-  std::vector<double> melting_bias{};  ///< K, all cells, added to the ore temperature of a prediction; empty: none
+  std::vector<double> largest_biot{};     ///< of each species, in the last step
+  nlohmann::json gas_comparison{};        ///< of both gas models, where asked for
+  nlohmann::json prediction{};            ///< of a prediction: how it came about; null for a march
+  nlohmann::json correction{};            ///< of a corrected prediction: what the march has measured
+  std::vector<double> ore_temperature{};  ///< K, all cells, instead of what the means say; empty: that
   std::map<std::string, std::vector<double>> more_cell_data{};  ///< fields by name, written as they are
   const MarchWindows* measured = nullptr;  ///< means over the layer passages of a march that began with a prediction
   std::optional<double> step_error{};      ///< estimated error of the temperatures from the time step; with heat

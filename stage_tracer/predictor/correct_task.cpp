@@ -20,8 +20,6 @@ constexpr int tendency_smoothing = 4;
 constexpr int bias_smoothing = 2;
 /// Of the solids of a cell that a species must be for its bias to count there.
 constexpr double least_share = 0.02;
-/// K: beyond this the continued ore temperature says nothing about where the ore melts.
-constexpr double largest_melting_bias = 300;
 
 std::filesystem::path input_file(const std::filesystem::path& folder, const Task& task, const std::string& name) {
   const auto input = task.inputs.find(name);
@@ -51,22 +49,6 @@ BySpecies difference(const BySpecies& volume, const BySpecies& a, const BySpecie
     for (std::size_t c = 0; c < a[s].size(); ++c) result[s][c] = volume[s][c] > 0 ? a[s][c] - b[s][c] : 0;
   }
   return result;
-}
-
-/// How much hotter the melting ore of the march is than the steady solution's, K, all cells, smoothed.
-std::vector<double> melting_bias(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
-                                 const CellContents& march, const CellContents& steady, const CellSpreading& kernel) {
-  const MeltingZone marched = find_melting_zone(mesh, campaign, field, march.volume, march.temperature);
-  const MeltingZone solved = find_melting_zone(mesh, campaign, field, steady.volume, steady.temperature);
-  std::vector<double> volume(mesh.cells(), 0.0);
-  std::vector<double> bias(mesh.cells(), 0.0);
-  for (std::size_t c = 0; c < mesh.cells(); ++c) {
-    if (!field.bed[c]) continue;
-    volume[c] = mesh.cell_volume[c];
-    bias[c] =
-        std::clamp(marched.ore_temperature[c] - solved.ore_temperature[c], -largest_melting_bias, largest_melting_bias);
-  }
-  return smoothed({volume}, {bias}, kernel, bias_smoothing).front();
 }
 
 /// One steady solution and what is needed of it.
@@ -121,8 +103,6 @@ ExitCode correct(FoamCase& foam, const std::filesystem::path& folder, const Task
   const BySpecies common = common_volume(measured.mean, compared.contents);
   bias.species = smoothed(common, difference(common, measured.mean.temperature, compared.contents.temperature), kernel,
                           bias_smoothing);
-  if (can_melt(campaign))
-    bias.melting = melting_bias(mesh, campaign, predictor.field(), measured.mean, compared.contents, kernel);
 
   CellContents contents = steady.contents;
   contents.temperature = corrected(campaign, contents, bias);
@@ -154,11 +134,15 @@ ExitCode correct(FoamCase& foam, const std::filesystem::path& folder, const Task
   result.cells_at_floor = predictor.cells_at_floor();
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   result.wall_seconds_by_part = clock.seconds();
-  result.melting_bias = bias.melting;
+  // The zone stays where the march has it: below the last ore its temperature is a continuation, of which differences
+  // mean nothing.
+  if (can_melt(campaign))
+    result.ore_temperature =
+        find_melting_zone(mesh, campaign, predictor.field(), measured.mean.volume, measured.mean.temperature)
+            .ore_temperature;
   result.more_cell_data[predicted_share_name] = share;
   for (std::size_t s = 0; s < campaign.species.size(); ++s)
     result.more_cell_data[march_bias_name + campaign.species[s].name] = bias.species[s];
-  if (!bias.melting.empty()) result.more_cell_data[melting_bias_name] = bias.melting;
   result.correction = {{"extrapolated", sound},
                        {"converged", steady.outcome.converged},
                        {"windows", measured.windows},

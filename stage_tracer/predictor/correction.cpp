@@ -15,7 +15,6 @@ MarchBias read_march_bias(const std::filesystem::path& result, const BedMesh& me
   };
   MarchBias bias;
   for (const Species& species : campaign.species) bias.species.push_back(limited(march_bias_name + species.name));
-  if (file.has_cell_data(melting_bias_name)) bias.melting = limited(melting_bias_name);
   return bias;
 }
 

@@ -11,13 +11,11 @@ namespace cupola {
 /// What marched tracers were hotter than the steady solution on streamlines that changes as they did: what that
 /// solution leaves out (layers, scatter of the grains on their way).
 struct MarchBias {
-  BySpecies species;            ///< K, [species][cell], smoothed; 0 where nothing was measured
-  std::vector<double> melting;  ///< K, all cells, of the continued ore temperature; empty where nothing melts
+  BySpecies species;  ///< K, [species][cell], smoothed; 0 where nothing was measured
 };
 
-/// Cell data of a corrected prediction that hold the bias: `march_bias.<species>` and `melting_bias`.
+/// Cell data of a corrected prediction that hold the bias: `march_bias.<species>`.
 inline constexpr const char* march_bias_name = "march_bias.";
-inline constexpr const char* melting_bias_name = "melting_bias";
 
 /// Largest bias that is carried to another flux, K: larger ones belong to where the zone stood.
 inline constexpr double largest_carried_bias = 60;

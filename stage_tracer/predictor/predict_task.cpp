@@ -67,11 +67,9 @@ ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task
 
   Averages averages(campaign.species.size(), mesh.cells(), true);
   CellContents contents = spread(predictor.contents(), predictor.kernel());
-  std::vector<double> melting_bias;
   if (const auto input = task.inputs.find("correction"); input != task.inputs.end()) {
     const MarchBias bias = read_march_bias(folder / input->second.file, mesh, campaign);
     contents.temperature = corrected(campaign, contents, bias);
-    melting_bias = bias.melting;
   }
   averages.add(contents, campaign, 1.0);
   const Ledger ledger = predictor.ledger();
@@ -83,7 +81,6 @@ ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task
   result.wall_seconds_by_part = clock.seconds();
   for (const auto& [part, seconds] : result.wall_seconds_by_part) spdlog::info("{}: {:.3g} s", part, seconds);
   result.prediction = as_json(outcome, dem.has_value());
-  result.melting_bias = std::move(melting_bias);
   result.more_cell_data[predicted_share_name] = predictor.share();
   write_result(folder, task, result);
   write_manifest(folder);
