@@ -2,7 +2,7 @@ cupola_test(
   unit_orchestrator
   LABEL unit
   SOURCES unit/orchestrator/convergence_test.cpp unit/orchestrator/journal_test.cpp unit/orchestrator/process_test.cpp
-          unit/orchestrator/progress_test.cpp unit/orchestrator/run_folder_test.cpp unit/orchestrator/stage_state_test.cpp
+          unit/orchestrator/progress_test.cpp unit/orchestrator/run_folder_test.cpp unit/orchestrator/stage_orders_test.cpp unit/orchestrator/stage_state_test.cpp
           unit/orchestrator/remaining_time_test.cpp unit/orchestrator/result_check_test.cpp
           unit/orchestrator/slurm_test.cpp unit/orchestrator/measured_rates_test.cpp
   LIBRARIES cupola_orchestrator)

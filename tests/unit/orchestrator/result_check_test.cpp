@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "orchestrator/episode_judgement.hpp"
+#include "orchestrator/prediction_judgement.hpp"
 #include "schemas/campaign_reader.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
@@ -148,6 +149,48 @@ TEST(EpisodeJudgement, FollowsTheSequenceAndLeavesStagnantCellsOut) {
   // 1 mm/s in one of three components; error 0.1 m/s at DEM speed, 1 mm/s at descent, in each episode and component.
   EXPECT_NEAR(judged["figure"]["granular_velocity"], std::sqrt(1. / 3 / 2), 1e-9);
   EXPECT_FALSE(judged["met"].get<bool>());
+}
+
+/// A corrected prediction with chosen numbers.
+void write_correction(const std::filesystem::path& task, double temperature, double height, double to_go,
+                      double from_prediction) {
+  std::filesystem::create_directories(task);
+  FieldFileWriter file = two_cells(task / "result.hdf", "tracer-result");
+  file.cell_data("solids_temperature", {2 * temperature, temperature});
+  file.hdf().write("CohesiveZone/height_melted", std::vector<double>{height, height});
+  file.hdf().write("CohesiveZone/area", std::vector<double>{1, 1});
+  file.summary({{"correction", {{"to_go", to_go}, {"noise", 0.003}, {"from_prediction", from_prediction}}}});
+  file.commit();
+}
+
+TEST(PredictionJudgement, EstimatesTheErrorFromAllThatWasMeasured) {
+  const TemporaryFolder folder;
+  const Campaign campaign = tiny();  // 1 % and one cell, by default
+  std::vector<cupola::EpisodeFolders> episodes{write_episode(folder.path() / "1", {})};
+  episodes.back().correct = folder.path() / "1" / "correct";
+  write_correction(*episodes.back().correct, 1000, 1.5, 0.004, 0.005);
+  json judged = cupola::judge_prediction(episodes, "", campaign);
+  EXPECT_TRUE(judged["change"]["temperature"].is_null()) << "nothing to compare with";
+  EXPECT_FALSE(judged["met"].get<bool>());
+  EXPECT_TRUE(cupola::is_verified(judged));
+
+  episodes.push_back(write_episode(folder.path() / "2", {}));
+  episodes.back().correct = folder.path() / "2" / "correct";
+  write_correction(*episodes.back().correct, 1002, 1.52, 0.004, 0.005);
+  const auto before = *episodes.front().correct / "result.hdf";
+  judged = cupola::judge_prediction(episodes, before, campaign);
+  const double jump = 2. / (1002 - 293);
+  EXPECT_NEAR(judged["remaining_error"]["jump"], jump, 1e-12) << "the stagnant cell does not count";
+  EXPECT_NEAR(judged["figure"]["temperature"], 1.5 * std::sqrt(jump * jump + 0.004 * 0.004 + 0.003 * 0.003), 1e-12);
+  EXPECT_NEAR(judged["figure"]["left_alone"], 0.004, 1e-12) << "beyond the noise";
+  EXPECT_NEAR(judged["figure"]["cohesive_zone"], 1.5 * 0.02 / campaign.scene.mesh.cell, 1e-12);
+  EXPECT_TRUE(judged["met"].get<bool>());
+
+  // Tracers that leave their prediction refute it, however little the last step changed.
+  write_correction(*episodes.back().correct, 1002, 1.52, 0.004, 0.02);
+  EXPECT_FALSE(cupola::judge_prediction(episodes, before, campaign)["met"].get<bool>());
+  write_correction(*episodes.back().correct, 1002, 1.52, 0.01, 0.005);
+  EXPECT_FALSE(cupola::judge_prediction(episodes, before, campaign)["met"].get<bool>()) << "still on its way";
 }
 
 }  // namespace
