@@ -78,6 +78,11 @@ ExitCode serve(const std::filesystem::path& folder, const std::string& host, int
   read_run(folder);  // says at once what is wrong with the folder
   LiveRun live(folder);
   httplib::Server server;
+  // Without SO_REUSEPORT, which the library sets: a second server on the port is to fail, not to share its visitors.
+  server.set_socket_options([](socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   server.set_default_headers({{"Cache-Control", "no-store"}, {"X-Content-Type-Options", "nosniff"}});
   if (is_loopback(host)) {
     server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
@@ -100,8 +105,11 @@ ExitCode serve(const std::filesystem::path& folder, const std::string& host, int
   });
   const int bound = port == 0 ? server.bind_to_any_port(host) : (server.bind_to_port(host, port) ? port : -1);
   if (bound < 0)
-    throw Failure(ExitCode::input_output,
-                  fmt::format("{}:{}: cannot be listened at; choose another --port or --host.", host, port));
+    throw Failure(
+        ExitCode::input_output,
+        fmt::format("{}:{}: cannot be listened at: another program listens there, perhaps another `cupola serve`, or "
+                    "the address is not of this machine. Choose another --port (0: any free one) or --host.",
+                    host, port));
   fmt::print("http://{}:{}/ shows {}; Ctrl-C ends this, not the campaign\n", host, bound, folder.string());
   std::fflush(stdout);
   std::thread listening([&] { server.listen_after_bind(); });

@@ -11,6 +11,7 @@
 #include "orchestrator/convergence_rules.hpp"
 #include "orchestrator/episode_judgement.hpp"
 #include "orchestrator/prediction_judgement.hpp"
+#include "orchestrator/quantity_text.hpp"
 #include "orchestrator/stage_orders.hpp"
 #include "orchestrator/stage_runner.hpp"
 #include "orchestrator/stage_state.hpp"
@@ -147,7 +148,7 @@ class March {
     const bool known = last.value("event", "") == "campaign-ended" && last.value("episodes", 0) == episode;
     if (!known) run_.journal().append("campaign-ended", content);
     after_stage_();
-    std::string sentence = fmt::format("{} after {} episodes", to_text(verdict), episode);
+    std::string sentence = fmt::format("{} after {}", to_text(verdict), counted(episode, "episode"));
     if (verdict == Verdict::not_yet)
       sentence +=
           fmt::format(", its limit. `cupola resume {} --at-most {}` goes on", run_.path().string(), 2 * episode);

@@ -39,6 +39,10 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.3g} d", seconds / day);
 }
 
+std::string counted(long long number, const std::string& what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 std::string monitored_text(const std::string& name, double value) {
   const auto label = labels().find(name);
   if (label == labels().end()) return fmt::format("{} {:.4g}", name, value);

@@ -29,6 +29,7 @@ class Looker {
       for (const TaskKind kind : all_stages_of_episode()) any = look_at_stage(episode, kind) || any;
     }
     look_for_missing();
+    look_at_report();
     return std::move(check_);
   }
 
@@ -154,6 +155,20 @@ class Looker {
                                           record.value("attempt", 0));
       if (!fs::is_directory(folder))
         check_.problems.push_back(folder.string() + ": missing, although the journal knows it finished");
+    }
+  }
+
+  /// The numbers of the report; what else is derived is made from them and from the results, and carries no hash.
+  void look_at_report() {
+    const fs::path file = run_ / "report" / "report.json";
+    if (!fs::exists(file)) return;
+    ++check_.files;
+    try {
+      read_sealed_json(file);
+    } catch (const std::exception&) {
+      check_.problems.push_back(
+          fmt::format("{}: damaged, or changed after it was written; `cupola report {}` makes it anew", file.string(),
+                      run_.string()));
     }
   }
 

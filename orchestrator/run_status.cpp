@@ -6,13 +6,16 @@
 #include <fstream>
 #include <set>
 
+#include "orchestrator/failure_text.hpp"
 #include "orchestrator/launch/open_jobs.hpp"
 #include "orchestrator/launch/slurm_queue.hpp"
+#include "orchestrator/measured_rates.hpp"
 #include "orchestrator/progress_view.hpp"
 #include "orchestrator/quantity_text.hpp"
 #include "orchestrator/remaining_time.hpp"
 #include "orchestrator/stage_launcher.hpp"
 #include "orchestrator/stage_state.hpp"
+#include "physics/plan/plan.hpp"
 
 namespace cupola {
 namespace {
@@ -81,7 +84,7 @@ void describe_rest(const RunRecord& run, json& status) {
   if (event == "campaign-ended") status["state"] = last->value("outcome", "ended");
   if (event == "stage-failed") {
     status["state"] = "failed";
-    status["message"] = (*last)["failure"].value("sentence", "");
+    status["message"] = failure_text((*last)["failure"]);
   } else if (event == "result-refused") {
     status["state"] = "failed";
     status["message"] = (*last)["sentence"];
@@ -132,31 +135,49 @@ double mean_wall_seconds(const RunRecord& run, TaskKind kind) {
   return stages > 0 ? sum / stages : 0;
 }
 
+/// Wall time of a stage that has not been finished yet, by the plan and the rates of this machine; 0 where the plan
+/// cannot be made.
+double expected_wall_seconds(const RunRecord& run, TaskKind kind) {
+  try {
+    const Cost cost = make_plan(run.campaign, measured_rates()).cost;
+    return (kind == TaskKind::dem ? cost.dem_core_seconds : cost.tracer_core_seconds) /
+           ranks_in_force(run.journal, run.campaign.launch.ranks);
+  } catch (const Failure&) {
+    return 0;
+  }
+}
+
 /// Rest of the present stage, of its episode and of the episodes after it, by the trend of convergence.
 json remaining(const RunRecord& run, const Present& present, int at_most) {
   std::vector<json> judged;
   for (const json& record : run.journal)
     if (record.value("event", "") == "episode-judged") judged.push_back(record);
   const auto trend = remaining_episodes(judged, run.campaign.converged, at_most);
-  json result = {{"episodes", trend ? json(trend->episodes) : json()},
+  // Before there is a trend: all that the limit leaves.
+  const int episodes = trend ? trend->episodes : std::max(at_most - static_cast<int>(judged.size()), 0);
+  json result = {{"episodes", episodes},
                  {"seconds", nullptr},
-                 {"until_limit", trend ? json(trend->until_limit) : json()},
-                 {"why", trend ? trend->why : "known after two episodes"}};
+                 {"by_expectation", false},
+                 {"until_limit", !trend || trend->until_limit},
+                 {"why", trend ? trend->why : "a trend is known after two episodes"}};
   // Wall time of an episode, and of its stages before the present one.
   double whole = 0, before = 0, present_one = 0;
   for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
-    const double stage = mean_wall_seconds(run, kind);
-    if (stage <= 0 && (kind == TaskKind::dem || kind == TaskKind::tracer)) return result;
+    double stage = mean_wall_seconds(run, kind);
+    if (stage <= 0 && (kind == TaskKind::dem || kind == TaskKind::tracer)) {
+      stage = expected_wall_seconds(run, kind);
+      if (stage <= 0) return result;
+      result["by_expectation"] = true;
+    }
     if (kind == present.kind) {
       before = whole;
       present_one = stage;
     }
     whole += stage;
   }
-  if (!trend) return result;
-  double seconds = trend->episodes * whole;
+  double seconds = episodes * whole;
   // What of the present episode has been done already.
-  if (present.episode > static_cast<int>(judged.size()) && trend->episodes > 0) {
+  if (present.episode > static_cast<int>(judged.size()) && episodes > 0) {
     const auto progress = read_progress(present.state.folder);
     const double share = progress && progress->process_seconds_total > 0
                              ? std::min(progress->process_seconds / progress->process_seconds_total, 1.0)
@@ -178,8 +199,10 @@ std::vector<std::string> logged_warnings(const std::filesystem::path& log) {
     file.seekg(static_cast<std::streamoff>(size - end_read));
   for (std::string line; std::getline(file, line);)
     for (const char* level : {" warning: ", " error: "})
-      if (const auto at = line.find(level); at != std::string::npos && at < 30)
-        warnings.push_back(line.substr(at + std::string(level).size()));
+      if (const auto at = line.find(level); at != std::string::npos && at < 30) {
+        std::string said = line.substr(at + std::string(level).size());
+        if (!said.starts_with("  ")) warnings.push_back(std::move(said));  // its place and advice stand in the message
+      }
   return warnings;
 }
 
@@ -192,7 +215,7 @@ std::vector<std::string> last_warnings(const RunRecord& run, const Present& pres
     const std::string place =
         fmt::format("{} stage of episode {}", record.value("stage", ""), record.value("episode", 0));
     if (event == "stage-failed" && record.contains("failure"))
-      warnings.push_back(place + ": " + record["failure"].value("sentence", ""));
+      warnings.push_back(place + ": " + failure_text(record["failure"]));
     if (event == "stage-died") warnings.push_back(place + " ended without saying why and was started again");
     if (event == "result-refused") warnings.push_back(place + ": " + record.value("sentence", ""));
     if (event == "advice-taken") warnings.push_back(place + " was tried again: " + record.value("because", ""));
@@ -208,12 +231,13 @@ std::vector<std::string> last_warnings(const RunRecord& run, const Present& pres
 }
 
 std::string remaining_text(const json& remaining) {
-  if (!remaining["episodes"].is_number()) return "";
   const int episodes = remaining["episodes"];
   std::string text = remaining["until_limit"].get<bool>()
                          ? fmt::format("at most {} more episode{}, to the limit", episodes, episodes == 1 ? "" : "s")
                          : fmt::format("{} more episode{} by the trend", episodes, episodes == 1 ? "" : "s");
-  if (remaining["seconds"].is_number()) text += fmt::format(", {}", duration_text(remaining["seconds"].get<double>()));
+  if (remaining["seconds"].is_number())
+    text += fmt::format(", about {}{}", duration_text(remaining["seconds"].get<double>()),
+                        remaining["by_expectation"].get<bool>() ? " at the rates expected here" : "");
   return "\n  to go: " + text + " (" + remaining["why"].get<std::string>() + ")";
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "orchestrator/campaign_difference.hpp"
+#include "orchestrator/failure_text.hpp"
 #include "orchestrator/stage_runner.hpp"
 #include "schemas/checkpoint_seal.hpp"
 #include "schemas/files.hpp"
@@ -32,16 +33,17 @@ std::string meaning_of(int status) {
   }
 }
 
-std::string sentence_of(const json& failure) { return failure.value("sentence", "it did not say why"); }
+/// All that a failed attempt advises.
+std::map<std::string, std::string> advice_of(const json& failure) {
+  return failure.value("advice", std::map<std::string, std::string>{});
+}
 
-/// The advice of a failed attempt that is about numerics; a furnace is not changed to make a stage pass.
-std::map<std::string, std::string> usable_advice(const json& failure) {
-  std::map<std::string, std::string> changes;
-  const json none = json::object();
-  const json& advice = failure.contains("advice") ? failure["advice"] : none;
-  for (const auto& [key, value] : advice.items())
-    if (key.starts_with("dem.") || key.starts_with("tracer.")) changes[key] = value.get<std::string>();
-  return changes;
+/// What of it is about numerics and is done unasked; a furnace is not changed to make a stage pass.
+std::map<std::string, std::string> advice_to_take(std::map<std::string, std::string> advice) {
+  std::erase_if(advice, [](const auto& change) {
+    return !change.first.starts_with("dem.") && !change.first.starts_with("tracer.");
+  });
+  return advice;
 }
 
 /// How long to wait before a stage that died is started again, by how often it has.
@@ -68,19 +70,21 @@ void begin_from_checkpoint(const std::filesystem::path& before, const std::files
 }  // namespace
 
 void StageRunner::begin_retry(StagePlace& place, const StageState& state, Patience& patience) {
-  const std::string sentence = sentence_of(*state.failure);
-  const std::map<std::string, std::string> changes = usable_advice(*state.failure);
+  const std::string sentence = what_happened(*state.failure);
+  const std::map<std::string, std::string> advice = advice_of(*state.failure);
+  const std::map<std::string, std::string> changes = advice_to_take(advice);
   // A stage found failed at the start of this run is tried again because somebody asked for it.
   const bool failed_before_us = patience.starts == 0;
   const auto give_up = [&](const std::string& why) {
     Failure failure(ExitCode::diverged, fmt::format("{} (attempt {}): {}. {} Everything is kept in {}.", name_of(place),
                                                     place.attempt, sentence, why, state.folder.string()));
-    for (const auto& [key, value] : changes) failure.advise(key, value);
+    for (const auto& [key, value] : advice) failure.advise(key, value);
     return failure;
   };
   if (patience.retries > 0) throw give_up("It was tried twice.");
   if (changes.empty() && !failed_before_us)
-    throw give_up("It gives no advice what to change, so it would end the same.");
+    throw give_up(advice.empty() ? "It gives no advice what to change, so it would end the same."
+                                 : "What it advises changes the bed itself and is left to you.");
   ++patience.retries;
   if (!changes.empty()) {
     Campaign changed = campaign_in_force();
@@ -131,7 +135,7 @@ bool StageRunner::judge_end(const StagePlace& place, int status, Patience& patie
     const int code = failure->value("code", 0);
     if (code == static_cast<int>(ExitCode::diverged)) return true;  // finish() sees it failed
     throw Failure(code == static_cast<int>(ExitCode::wrong_input) ? ExitCode::wrong_input : ExitCode::input_output,
-                  fmt::format("{}: {} ({})", name_of(place), sentence_of(*failure), task.string()));
+                  fmt::format("{}: {} ({})", name_of(place), what_happened(*failure), task.string()));
   }
   // A status of ours without failure.json: the disk did not even take that.
   if (const std::string meaning = meaning_of(status); !meaning.empty()) {

@@ -53,16 +53,17 @@ std::optional<double> last_value(const json& curve) {
 
 double stage_wall(const StageReport& stage) { return number_at(stage.summary, "/wall_seconds").value_or(0); }
 
-/// What the alternation still has to change, if the last two episodes say so.
-void add_alternation(const json& report, double wall_of_episode, std::vector<ErrorSource>& sources) {
+/// What the alternation still has to change, if the episodes say how it shrinks.
+/// @param floor the granular velocity's standard error, below which no episode repeats the one before
+void add_alternation(const json& report, double wall_of_episode, double floor, std::vector<ErrorSource>& sources) {
   if (report.at("episodes").empty()) return;
   const json& last = report.at("episodes").back();
   const auto figure = number_at(last, "/figures/temperature"), lambda = number_at(last, "/lambda/temperature");
-  if (!figure || wall_of_episode <= 0) return;
+  if (!figure || !lambda || wall_of_episode <= 0) return;
   sources.push_back({"the change from episode to episode",
                      "more episodes: `converged.at_most`, `cupola resume --at-most`", *figure, wall_of_episode,
-                     ErrorSource::Law::contraction,
-                     std::clamp(std::abs(lambda.value_or(largest_lambda)), smallest_lambda, largest_lambda)});
+                     ErrorSource::Law::contraction, std::clamp(std::abs(*lambda), smallest_lambda, largest_lambda),
+                     floor});
 }
 
 }  // namespace
@@ -74,7 +75,7 @@ double ErrorSource::after(double seconds) const {
     case Law::first_order:
       return error * wall / (wall + seconds);
     case Law::contraction:
-      return error * std::pow(factor, seconds / wall);
+      return std::max(error * std::pow(factor, seconds / wall), std::min(error, floor));
   }
   return error;
 }
@@ -139,7 +140,7 @@ json accuracy_and_cost(const std::vector<StageReport>& stages, const json& repor
   }
   if (granular) sources.push_back(*granular);
   if (time_step) sources.push_back(*time_step);
-  add_alternation(report, wall_of_episode, sources);
+  add_alternation(report, wall_of_episode, granular ? granular->error : 0, sources);
   for (const ErrorSource& source : sources)
     result["sources"].push_back({{"name", source.name},
                                  {"cure", source.cure},

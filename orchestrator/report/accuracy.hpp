@@ -20,6 +20,7 @@ struct ErrorSource {
   double wall = 0;   ///< s that this error cost so far; of contraction: of one episode
   Law law = Law::statistics;
   double factor = 1;  ///< of contraction
+  double floor = 0;   ///< other errors hide what is smaller: it gets no better than this (or than `error`)
   /// The error after so many seconds more.
   [[nodiscard]] double after(double seconds) const;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "orchestrator/quantity_text.hpp"
 #include "orchestrator/report/json_numbers.hpp"
 
 namespace cupola {
@@ -90,10 +91,16 @@ std::string unmet_criteria(const json& episode) {
   return names;
 }
 
+/// Whether any criterion could be judged of an episode.
+bool any_judged(const json& episode) {
+  const json& change = episode.at("change");
+  return std::any_of(change.begin(), change.end(), [](const json& value) { return value.is_number(); });
+}
+
 json has_it_converged(const json& report) {
   const std::string question = "Has it converged?";
   const std::string state = report.at("state");
-  const auto episodes = report.at("episodes").size();
+  const auto number = static_cast<long long>(report.at("episodes").size());
   const json& criteria = report.at("criteria");
   if (is_prediction(report)) {
     return entry(
@@ -103,30 +110,31 @@ json has_it_converged(const json& report) {
             : "A steady solution on streamlines was sought and not found; what is shown is the last iteration.");
   }
   if (state == "converged" && report.value("strategy", "") == "predict-and-verify") {
-    return entry(question, fmt::format("Yes, after {} DEM stages", episodes),
+    return entry(question, "Yes, after " + counted(number, "DEM stage"),
                  report.at("predict_and_verify").at("sentence").get<std::string>());
   }
   if (state == "converged") {
-    return entry(question, fmt::format("Yes, after {} episodes", episodes),
-                 fmt::format("All criteria were met in {} episodes on end.", criteria.at("for").get<int>()));
+    return entry(question, "Yes, after " + counted(number, "episode"),
+                 fmt::format("All criteria were met in {} on end.", counted(criteria.at("for").get<int>(), "episode")));
   }
   if (state == "steady, ore not melted") {
     return entry(question, "Steady, but ore leaves unmelted",
                  "Nothing changes any more, yet too much of the ore leaves the furnace without having melted.");
   }
   if (state == "not converged at its limit") {
-    const std::string unmet = report.at("episodes").empty() ? "" : unmet_criteria(report.at("episodes").back());
-    const std::string reason =
-        unmet.empty() ? "The criteria were not met in enough episodes on end." : fmt::format("Not met: {}.", unmet);
-    return entry(question, fmt::format("No, not within {} episodes", episodes),
+    const bool judged = number > 0 && any_judged(report.at("episodes").back());
+    const std::string unmet = judged ? unmet_criteria(report.at("episodes").back()) : "";
+    const std::string reason = !judged ? "Nothing could be judged yet: a change shows from the second episode on."
+                               : unmet.empty() ? "The criteria were not met in enough episodes on end."
+                                               : fmt::format("Not met: {}.", unmet);
+    return entry(question, "No, not within " + counted(number, "episode"),
                  reason + " It can be resumed with a higher limit.");
   }
   if (state == "failed") {
     return entry(question, "No, it failed", report.at("description").get<std::string>());
   }
-  return entry(
-      question, "Not yet",
-      fmt::format("Episode {} of at most {}.", std::max<std::size_t>(episodes, 1), criteria.at("at_most").get<int>()));
+  return entry(question, "Not yet",
+               fmt::format("Episode {} of at most {}.", std::max(number, 1LL), criteria.at("at_most").get<int>()));
 }
 
 json where_is_the_zone(const json& report) {

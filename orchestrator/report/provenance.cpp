@@ -4,7 +4,11 @@
 #include <yaml-cpp/yaml.h>
 
 #include <set>
+#include <string>
+#include <vector>
 
+#include "orchestrator/stage_sequence.hpp"
+#include "orchestrator/stage_state.hpp"
 #include "schemas/files.hpp"
 
 namespace cupola {
@@ -78,12 +82,73 @@ std::string media_type(const std::string& file) {
   return "text/plain";
 }
 
+/// Names of the views for ParaView and of what they need, sorted.
+std::set<std::string> views_in(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (const auto& file : std::filesystem::directory_iterator(folder, ignored))
+    if (file.is_regular_file() && file.path().extension() != ".part") names.insert(file.path().filename().string());
+  return names;
+}
+
 json reference(const std::string& id) { return {{"@id", id}}; }
+
+/// Ranks of the stages as they were prepared, one entry for each change: `ranks` and the stage from which on.
+struct RanksFrom {
+  int ranks = 0;
+  std::string stage;
+};
+std::vector<RanksFrom> ranks_used(const RunRecord& run) {
+  std::vector<RanksFrom> used;
+  for (const json& record : run.journal) {
+    const int ranks = record.value("ranks", 0);
+    if (record.value("event", "") != "stage-prepared" || (!used.empty() && used.back().ranks == ranks)) continue;
+    used.push_back({ranks, stage_title(stage_kind(record.value("stage", "")), record.value("episode", 0))});
+  }
+  return used;
+}
+
+/// The command that computes the same again: with the limits it was given beside the campaign's own.
+std::string command_of(const RunRecord& run, const std::vector<RanksFrom>& used) {
+  std::string command = "cupola run campaign.yaml --run-dir NEW_FOLDER";
+  int at_most = run.campaign.converged.at_most;
+  for (const json& record : run.journal)
+    if (record.value("event", "") == "orchestrator-started") at_most = record.value("at_most", at_most);
+  if (at_most != run.campaign.converged.at_most) command += fmt::format(" --at-most {}", at_most);
+  const int of_campaign = run.campaign.launch.ranks;
+  const int ranks = used.empty() ? ranks_in_force(run.journal, of_campaign) : used.front().ranks;
+  if (ranks != of_campaign && !run.campaign.launch.slurm) command += fmt::format(" --ranks {}", ranks);
+  return command;
+}
+
+/// What one command does not do again; empty where the ranks stayed as they were.
+std::string changes_of_ranks(const std::vector<RanksFrom>& used) {
+  if (used.size() < 2) return "";
+  std::string text = fmt::format("{} at first", used.front().ranks);
+  for (std::size_t i = 1; i < used.size(); ++i)
+    text += fmt::format(", {} from the {} on", used[i].ranks, used[i].stage);
+  return text + ": the same to the last digit only with `cupola resume --ranks` at the same places";
+}
+
+/// The licence that the owner of the data has put into the crate; none: nothing is said.
+json license_in(const std::filesystem::path& crate) {
+  try {
+    const json before = std::filesystem::exists(crate) ? read_json(crate) : json::object();
+    const json graph = before.value("@graph", json::array());
+    for (const json& entity : graph)
+      if (entity.value("@id", "") == "./") return entity.value("license", json());
+  } catch (const std::exception&) {
+    return nullptr;  // a damaged one is made anew
+  }
+  return nullptr;
+}
 
 }  // namespace
 
 json provenance(const RunRecord& run, const std::vector<StageReport>& stages) {
-  json result = {{"command", "cupola run campaign.yaml --run-dir NEW_FOLDER"},
+  const std::vector<RanksFrom> used = ranks_used(run);
+  json result = {{"command", command_of(run, used)},
+                 {"ranks_changed", changes_of_ranks(used)},
                  {"campaign_hash", run.campaign_hash},
                  {"resolved_hash", run.information.value("resolved_hash", "")},
                  {"hosts", json::array()},
@@ -130,10 +195,16 @@ json ro_crate(const RunRecord& run, const json& report) {
   };
   add("campaign.yaml", "The campaign, frozen", nullptr, run.campaign_hash);
   add("resolved.yaml", "The campaign with every default", nullptr, run.information.value("resolved_hash", ""));
-  add("run.json", "Versions, host and start", nullptr, nullptr);
-  add("journal.jsonl", "What was done, when", nullptr, nullptr);
-  add("report/index.html", "Report for people", nullptr, nullptr);
-  add("report/report.json", "Every number of the report", nullptr, nullptr);
+  const auto add_as_it_is = [&](const std::string& file, const std::string& name) {
+    const std::filesystem::path path = run.folder / file;
+    if (std::filesystem::exists(path)) add(file, name, std::filesystem::file_size(path), hash_file(path));
+  };
+  add_as_it_is("run.json", "Versions, host and start");
+  add_as_it_is("journal.jsonl", "What was done, when");
+  add_as_it_is("report/index.html", "Report for people");
+  add_as_it_is("report/report.json", "Every number of the report");
+  for (const std::string& view : views_in(run.folder / "fields"))
+    add_as_it_is("fields/" + view, "For ParaView: " + view);
   for (const json& stage : report.at("provenance").at("stages")) {
     const json listed = stage.value("files", json::object());
     for (const auto& [file, about] : listed.items()) {
@@ -175,6 +246,9 @@ json ro_crate(const RunRecord& run, const json& report) {
                  {"version", version},
                  {"softwareRequirements", json::array()}},
                 action};
+  if (const json license = license_in(run.folder / "ro-crate-metadata.json"); !license.is_null()) {
+    graph[1]["license"] = license;
+  }
   for (const auto& [name, library] : report.at("versions").items()) {
     if (name != "cupola") {
       graph[2]["softwareRequirements"].push_back(name + " " + library.get<std::string>());

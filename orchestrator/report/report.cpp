@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orchestrator/launch/open_jobs.hpp"
+#include "orchestrator/quantity_text.hpp"
 #include "orchestrator/report/accuracy.hpp"
 #include "orchestrator/report/answers.hpp"
 #include "orchestrator/report/charts.hpp"
@@ -145,7 +146,7 @@ std::pair<std::string, std::string> state_of(const RunRecord& run, const std::ve
   if (last.value("event", "") == "campaign-ended") {
     const std::string outcome = last.value("outcome", "");
     return {outcome == "not yet converged" ? "not converged at its limit" : outcome,
-            fmt::format("{} episodes", last.value("episodes", 0))};
+            counted(last.value("episodes", 0), "episode")};
   }
   if (last.value("event", "") == "result-refused") {
     return {"failed", last.value("sentence", "a result failed its checks")};
@@ -270,10 +271,10 @@ json make_report(const std::filesystem::path& run_folder) {
   if (error) {
     throw Failure(ExitCode::input_output, fmt::format("{}: cannot be made: {}", folder.string(), error.message()));
   }
-  write_json_atomically(folder / "report.json", report);
+  write_sealed_json(folder / "report.json", report);
   write_text_atomically(folder / "index.html", report_page(report));
-  write_json_atomically(run_folder / "ro-crate-metadata.json", ro_crate(run, report));
   write_paraview_views(run.folder, stages);
+  write_json_atomically(run_folder / "ro-crate-metadata.json", ro_crate(run, report));
   return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "orchestrator/failure_text.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 
@@ -89,7 +90,7 @@ StageReport read_stage_report(const RunRecord& run, int episode, TaskKind kind) 
   } else {
     stage.summary = summary_of_progress(stage.state.folder);
     if (const auto failure = read_failure(stage.state.folder)) {
-      stage.sentence = failure->value("sentence", "");
+      stage.sentence = failure_text(*failure);
     }
   }
   // What failed attempts and lost work have cost counts too.

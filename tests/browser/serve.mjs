@@ -1,6 +1,6 @@
 // Looks at a run through `cupola serve`, in Chromium and without it:  node serve.mjs CUPOLA RUN OUTPUT_FOLDER
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import { appendFileSync, cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
 import { request } from "node:http";
 import { tmpdir } from "node:os";
@@ -34,6 +34,10 @@ try {
   assert.equal(await status("GET", "../../run.json"), 404, "a file of the run folder was handed out");
   assert.equal(await status("POST", "status.json"), 404, "it takes more than questions");
   assert.equal(await status("GET", "status.json", { Host: "somewhere.example" }), 403, "a foreign name leads here");
+  const { port } = new URL(address);
+  const second = spawnSync(cupola, ["serve", run, "--port", port], { encoding: "utf8", timeout: 60000 });
+  assert.equal(second.status, 74, "a second server on the same port does not fail");
+  assert(second.stderr.includes(`127.0.0.1:${port}`), `the port is not named: ${second.stderr}`);
   const before = statSync(join(run, "report", "index.html")).mtimeMs;
 
   browser = await puppeteer.launch({

@@ -7,7 +7,7 @@ const tolerance = Number(toleranceText ?? 0);
 // The hash of a result is among it: its summary holds wall times; so is everything that is said about where a run was made.
 const ofTheDay = new Set([
   'wall_seconds', 'wall_seconds_by_part', 'wall_time', 'started', 'file_written', 'file_hash', 'host', 'run_folder',
-  'provenance', 'imbalance', 'after_an_hour', 'where_an_hour_helps',
+  'provenance', 'hash', 'imbalance', 'after_an_hour', 'where_an_hour_helps',
   ...(otherKeys ?? '').split(','),
 ]);
 const differences = [];

@@ -23,7 +23,7 @@ diverges_in() {
 case "\$*" in
 prepare* | --versions) ;;
 $1)
-  echo '{"code": 70, "sentence": "overlap too large", "where": {"step": "12"}, "advice": {"dem.time_step": "1e-4"}}' > "\$1/failure.json"
+  echo '{"code": 70, "sentence": "overlap too large", "where": {"step": "12"}, "advice": {"dem.time_step": "1e-4", "contacts.youngs_modulus": "1e+07 Pa"}}' > "\$1/failure.json"
   exit 70 ;;
 esac
 exec $programs/cupola-dem "\$@"
@@ -43,6 +43,20 @@ grep -q 'try dem.time_step: 1e-4' "$work/out" || fail "the advice is not said"
 grep -q 'time_step: 0.0001' "$run/episodes/001/dem/attempt-2/task.yaml" || fail "the advice was not taken"
 grep -q '"state": "failed"' <("$work/bin/cupola" status "$run" --json) || fail "status does not say so"
 [[ -f $run/report/index.html ]] || fail "no report of the failure"
+# What happened, where and all that can be tried: at the end of `run`, in `status`, in the report and on its page.
+grep -q 'try contacts.youngs_modulus: 1e+07 Pa' "$work/out" || fail "not all of the advice is said"
+if grep -q 'youngs_modulus' <(grep '"event":"advice-taken"' "$run/journal.jsonl"); then fail "the bed was changed unasked"; fi
+told='overlap too large (step 12). Try contacts.youngs_modulus: 1e+07 Pa or dem.time_step: 1e-4.'
+"$work/bin/cupola" status "$run" --json > "$work/status"
+node -e '
+  const [statusFile, run, told] = process.argv.slice(1);
+  const text = (file) => require("fs").readFileSync(file, "utf8");
+  const report = JSON.parse(text(`${run}/report/report.json`));
+  const places = [JSON.parse(text(statusFile)).message, report.description, report.answers.converged.detail,
+    report.warnings.join(), report.results[0].sentence, text(`${run}/report/index.html`)];
+  const without = places.findIndex((place) => !place.includes(told));
+  if (without >= 0) throw new Error(`place ${without} does not say what happened, where and what to try: ${places[without].slice(0, 300)}`);
+' "$work/status" "$run" "$told" || fail "the report of the failure is not whole"
 
 diverges_in '*001/dem/attempt-3'
 "$work/bin/cupola" resume "$run" --until-episode 1 > "$work/out" 2>&1

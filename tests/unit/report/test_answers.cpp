@@ -54,6 +54,15 @@ TEST(Answers, OfARunThatHasNotConverged) {
   EXPECT_THAT(answers(report_of("failed"))[converged].at("detail"), HasSubstr("parcel 7 left"));
 }
 
+TEST(Answers, OfOneEpisodeSaysThatNothingCouldBeJudged) {
+  json report = report_of("not converged at its limit");
+  json first = report["episodes"][0];
+  first["change"] = {{"temperature", nullptr}, {"cohesive_zone", nullptr}, {"granular_velocity", nullptr}};
+  report["episodes"] = json::array({first});
+  EXPECT_EQ(answer(report, converged), "No, not within 1 episode");
+  EXPECT_THAT(answers(report)[converged].at("detail"), HasSubstr("Nothing could be judged yet"));
+}
+
 TEST(Answers, SayWhetherAChangeWasExtrapolated) {
   json report = report_of("running");
   EXPECT_THAT(answers(report)[certainty].at("detail"), HasSubstr("Temperature changed in the last episode by 0.4 %"));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "orchestrator/report/report.hpp"
+#include "orchestrator/run_check.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
@@ -62,15 +63,54 @@ TEST_F(MakeReport, OfARunThatHasJustBegun) {
   EXPECT_EQ(report.at("campaign"), "tiny");
   EXPECT_EQ(report.at("converged"), false);
   EXPECT_TRUE(report.at("episodes").empty());
-  EXPECT_EQ(read_json(path() / "report/report.json"), report);
+  EXPECT_EQ(read_sealed_json(path() / "report/report.json"), report);
   EXPECT_THAT(read_text(path() / "report/index.html"), HasSubstr("\"campaign\":\"tiny\""));
 }
 
 TEST_F(MakeReport, TellsAFailedStage) {
-  write_failure(begin_stage(TaskKind::dem), Failure(ExitCode::diverged, "parcel 7 left the domain"));
+  write_failure(begin_stage(TaskKind::dem), Failure(ExitCode::diverged, "parcel 7 left the domain")
+                                                .at("step", "5205")
+                                                .advise("dem.rayleigh_fraction", "0.0124")
+                                                .advise("contacts.youngs_modulus", "1e+07 Pa"));
   const json report = make_report(path());
   EXPECT_EQ(report.at("state"), "failed");
-  EXPECT_THAT(report.at("description"), HasSubstr("DEM stage of episode 1: parcel 7 left the domain"));
+  const std::string told =
+      "parcel 7 left the domain (step 5205). Try contacts.youngs_modulus: 1e+07 Pa or dem.rayleigh_fraction: 0.0124.";
+  EXPECT_EQ(report.at("description"), "DEM stage of episode 1: " + told);
+  EXPECT_THAT(report.at("warnings").dump(), HasSubstr(told));
+  EXPECT_EQ(report.at("results").at(0).at("sentence"), told);
+}
+
+TEST_F(MakeReport, SaysHowToComputeItAgain) {
+  const auto command = [&] { return make_report(path()).at("provenance").at("command").get<std::string>(); };
+  EXPECT_EQ(command(), "cupola run campaign.yaml --run-dir NEW_FOLDER") << "as the campaign has it";
+  const int ranks = run->campaign().launch.ranks + 1;
+  run->journal().append("orchestrator-started", {{"at_most", 1}});
+  run->journal().append("ranks-changed", {{"ranks", ranks}});
+  const std::string again =
+      "cupola run campaign.yaml --run-dir NEW_FOLDER --at-most 1 --ranks " + std::to_string(ranks);
+  EXPECT_EQ(command(), again);
+  run->journal().append("stage-prepared", {{"stage", "dem"}, {"episode", 1}, {"attempt", 1}, {"ranks", ranks}});
+  EXPECT_EQ(command(), again);
+  run->journal().append("stage-prepared", {{"stage", "tracer"}, {"episode", 1}, {"attempt", 1}, {"ranks", 7}});
+  const json from = make_report(path()).at("provenance");
+  EXPECT_EQ(from.at("command"), again) << "the ranks it began with";
+  EXPECT_THAT(from.at("ranks_changed"), HasSubstr("7 from the tracer stage"));
+}
+
+TEST_F(MakeReport, AFlippedByteOfItsNumbersIsFound) {
+  make_report(path());
+  EXPECT_TRUE(check_run(path()).problems.empty());
+  const std::filesystem::path file = path() / "report/report.json";
+  const std::string text = read_text(file);
+  for (const std::size_t place : {std::size_t{0}, text.size() / 2, text.size() - 1}) {
+    std::string flipped = text;
+    flipped[place] = static_cast<char>(flipped[place] ^ 1);
+    write_text_atomically(file, flipped);
+    EXPECT_THAT(check_run(path()).problems, testing::ElementsAre(HasSubstr("report.json"))) << "byte " << place;
+  }
+  make_report(path());
+  EXPECT_TRUE(check_run(path()).problems.empty());
 }
 
 TEST_F(MakeReport, TellsADamagedResultInsteadOfReadingIt) {
@@ -158,6 +198,18 @@ TEST_F(MakeReport, IsAResearchObjectCrate) {
   }
   const json& result = entities.at("episodes/001/tracer/attempt-1/result.hdf");
   EXPECT_EQ(result.at("identifier"), hash_file(task / "result.hdf"));
+  for (const char* file : {"run.json", "report/report.json", "report/index.html", "fields/tracer_fields.xdmf"}) {
+    EXPECT_EQ(entities.at(file).at("identifier"), hash_file(path() / file)) << file;
+    EXPECT_EQ(entities.at(file).at("contentSize"), std::to_string(std::filesystem::file_size(path() / file))) << file;
+  }
+  // Whose data it is, and under which licence, is for its owner to say; what was said is kept.
+  EXPECT_FALSE(entities.at("./").contains("license"));
+  json licensed = crate;
+  for (json& entity : licensed.at("@graph"))
+    if (entity.at("@id") == "./") entity["license"] = "https://creativecommons.org/licenses/by/4.0/";
+  write_json_atomically(path() / "ro-crate-metadata.json", licensed);
+  make_report(path());
+  EXPECT_THAT(read_text(path() / "ro-crate-metadata.json"), HasSubstr("licenses/by/4.0"));
   EXPECT_EQ(entities.at("#campaign").at("instrument").at("@id"), "#cupola-" + std::string(program_version));
 }
 

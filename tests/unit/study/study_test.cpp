@@ -236,6 +236,11 @@ TEST(TheNextHour, GoesWhereTheErrorFallsMost) {
   const ErrorSource episodes{
       "the change from episode to episode", "more episodes", 0.5, 1800, ErrorSource::Law::contraction, 0.5};
   EXPECT_NEAR(episodes.after(3600), 0.125, 1e-12);
+  ErrorSource noisy = episodes;
+  noisy.floor = 0.2;
+  EXPECT_NEAR(noisy.after(3600), 0.2, 1e-12) << "episodes repeat one another no better than their statistics";
+  noisy.error = 0.1;
+  EXPECT_NEAR(noisy.after(3600), 0.1, 1e-12);
   EXPECT_THAT(where_the_next_hour_helps({noise, step}),
               HasSubstr("help most in the granular velocity's statistics: 20 % now, about 10 % after it"));
   EXPECT_THAT(where_the_next_hour_helps({noise, step, episodes}),
