@@ -9,6 +9,6 @@ cupola_test(
   verification_predictor
   LABEL verification
   SOURCES verification/predictor/predictor_test.cpp
-  LIBRARIES cupola_settled_bed cupola_bed_mesh cupola_plan cupola_closures cupola_schemas)
+  LIBRARIES cupola_settled_bed cupola_tracer_parts cupola_bed_mesh cupola_plan cupola_closures cupola_schemas)
 target_compile_definitions(verification_predictor PRIVATE CUPOLA_TRACER="$<TARGET_FILE:cupola-tracer>")
 add_dependencies(verification_predictor cupola-tracer)

@@ -1,7 +1,9 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <random>
 
 #include "physics/closures/convection.hpp"
@@ -12,6 +14,7 @@
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "schemas/task.hpp"
+#include "stage_tracer/march_windows.hpp"
 #include "tests/support/stated_bed.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -84,26 +87,35 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-/// Predicts a campaign in a folder. @param guess result of another prediction on the same mesh; empty: none
-/// @param motion a DEM result on that mesh; empty: none
-/// @return exit status of the program
-int predict(const std::filesystem::path& folder, const std::string& text, const std::filesystem::path& guess = {},
-            const std::filesystem::path& motion = {}) {
+using Inputs = std::map<std::string, std::filesystem::path>;
+
+/// Runs a task of the tracer program in a folder. @return its exit status
+int run(const std::filesystem::path& folder, const std::string& text, TaskKind kind, const Inputs& inputs) {
   const ReadCampaign read = read_campaign_text(text, "campaign.yaml");
   if (!read.ok()) throw std::runtime_error(to_text(read.errors));
   Task task;
-  task.kind = TaskKind::predict;
+  task.kind = kind;
   task.campaign = read.campaign;
   task.campaign_hash = hash_text("one furnace");  // the mesh carries it
   task.program_version = "test";
-  if (!guess.empty()) task.inputs["solids_temperature"] = {guess, hash_file(guess)};
-  if (!motion.empty()) task.inputs["granular"] = {motion, hash_file(motion)};
+  for (const auto& [name, file] : inputs) task.inputs[name] = {file, hash_file(file)};
   std::filesystem::create_directories(folder);
   write_task(folder, task);
   const std::string program = CUPOLA_TRACER;
   const int prepared = std::system((program + " prepare " + folder.string() + " > /dev/null").c_str());
   if (prepared != 0) return prepared;
   return std::system((program + " " + folder.string() + " > /dev/null 2>&1").c_str());
+}
+
+/// Predicts a campaign in a folder. @param guess result of another prediction on the same mesh; empty: none
+/// @param motion a DEM result on that mesh; empty: none
+/// @return exit status of the program
+int predict(const std::filesystem::path& folder, const std::string& text, const std::filesystem::path& guess = {},
+            const std::filesystem::path& motion = {}) {
+  Inputs inputs;
+  if (!guess.empty()) inputs["solids_temperature"] = guess;
+  if (!motion.empty()) inputs["granular"] = motion;
+  return run(folder, text, TaskKind::predict, inputs);
 }
 
 nlohmann::json summary(const std::filesystem::path& folder) {
@@ -210,6 +222,81 @@ TEST(Predictor, NoiseOfTheMotionIsSurvived) {
   }
 }
 
+/// A tracer result with the windows of a march that was hotter than a prediction by `offset`, K, and warmed by
+/// `warming`, K/s.
+void write_march(const std::filesystem::path& file, const std::filesystem::path& prediction, double offset,
+                 double warming) {
+  const BedMesh mesh = BedMesh::read(prediction / "foam" / "mesh.hdf");
+  const FieldFile result(prediction / "result.hdf", "tracer-result");
+  const Campaign campaign = read_campaign_text(shaft, "").campaign;
+  constexpr int windows = 6;
+  constexpr double passage = 600;  // s
+  MarchWindows kept(campaign.species.size(), mesh.cells());
+  const std::vector<double> fraction = result.cell_data("solids_fraction");
+  for (int window = 0; window < windows; ++window) {
+    CellContents contents;
+    for (const Species& species : campaign.species) {
+      std::vector<double> volume = result.cell_data("volume_share." + species.name);
+      std::vector<double> temperature = result.cell_data("solids_temperature." + species.name);
+      for (std::size_t c = 0; c < mesh.cells(); ++c) {
+        const bool bed = mesh.cell_centre[c][2] < campaign.charging.stock_line;
+        volume[c] *= bed ? fraction[c] * mesh.cell_volume[c] : 0;
+        temperature[c] += offset + warming * passage * (window - 0.5 * windows);
+      }
+      contents.volume.push_back(volume);
+      contents.temperature.push_back(temperature);
+    }
+    Averages averages(campaign.species.size(), mesh.cells(), true);
+    averages.add(contents, campaign, passage);
+    kept.add(averages);
+  }
+  const std::vector<std::int64_t> cell_points = result.cell_points();
+  FieldFileWriter writer(file, {"tracer-result", hash_text("one furnace"), mesh.hash}, result.points(), cell_points);
+  writer.summary(nlohmann::json::object());
+  kept.write(writer.hdf());
+  writer.commit();
+}
+
+/// What marches measure is known here, and so is what must come of it.
+TEST(Correction, FindsAKnownBiasAndWhatWasStillToGo) {
+  const TemporaryFolder folder;
+  const auto first = folder.path() / "first";
+  const auto motion = folder.path() / "motion.hdf";
+  const auto prediction = folder.path() / "prediction";
+  ASSERT_EQ(predict(first, shaft), 0);
+  write_motion(motion, first, 0);
+  ASSERT_EQ(predict(prediction, shaft, first / "result.hdf", motion), 0);
+  const double mean = summary(prediction)["mean_solid_temperature"];
+  const auto corrected = [&](const std::string& name, double offset, double warming) {
+    const auto march = folder.path() / (name + ".hdf");
+    write_march(march, prediction, offset, warming);
+    const auto here = folder.path() / name;
+    EXPECT_EQ(run(here, shaft, TaskKind::correct,
+                  {{"granular", motion},
+                   {"solids_temperature", first / "result.hdf"},
+                   {"prediction", prediction / "result.hdf"},
+                   {"march", march}}),
+              0)
+        << read_failure(here).value_or(nlohmann::json()).dump();
+    return summary(here);
+  };
+  const auto offset = corrected("offset", 10, 0);
+  EXPECT_NEAR(offset["correction"]["bias_mean"].get<double>(), 10, 1.5);
+  EXPECT_NEAR(offset["correction"]["from_prediction_mean"].get<double>(), 10, 1e-6);
+  EXPECT_LT(offset["correction"]["noise"].get<double>(), 1e-12);
+  EXPECT_LT(offset["correction"]["to_go"].get<double>(), 2e-3);
+  EXPECT_NEAR(offset["mean_solid_temperature"].get<double>(), mean + 10, 2.5)
+      << "ore does not exceed its melting point";
+
+  // A bed that warms by 20 K/h has still to get hotter, and one that cools to get colder.
+  constexpr double rate = 20. / 3600;
+  const auto warming = corrected("warming", 0, rate), cooling = corrected("cooling", 0, -rate);
+  EXPECT_NEAR(warming["correction"]["tendency"].get<double>() * warming["correction"]["level"].get<double>(), 20, 0.5);
+  EXPECT_GT(warming["correction"]["to_go"].get<double>(), 2e-3);
+  EXPECT_GT(warming["mean_solid_temperature"].get<double>(), mean + 3);
+  EXPECT_LT(cooling["mean_solid_temperature"].get<double>(), mean - 3);
+}
+
 struct Hard {
   std::string name, what, with;
 };
@@ -247,6 +334,22 @@ TEST(Predictor, ABedWithoutRacewaysIsRefused) {
   const auto failure = read_failure(folder.path());
   ASSERT_TRUE(failure);
   EXPECT_NE(failure->value("sentence", "").find("raceways"), std::string::npos);
+}
+
+/// What is odd about a furnace is named, with what its user can change.
+TEST(Predictor, OddFurnacesAreNamedWithACure) {
+  const TemporaryFolder folder;
+  const auto warnings = [&](const std::string& name, const std::string& text) {
+    EXPECT_EQ(predict(folder.path() / name, text), 0)
+        << read_failure(folder.path() / name).value_or(nlohmann::json()).dump();
+    return summary(folder.path() / name)["prediction"]["warnings"].dump();
+  };
+  EXPECT_THAT(
+      warnings("zone", replaced(replaced(shaft, "0.85 kg/s", "4 kg/s"), "nusselt_factor: 0.1", "nusselt_factor: 1")),
+      ::testing::AllOf(::testing::HasSubstr("reaches the stock line"), ::testing::HasSubstr("Blow less")));
+  EXPECT_THAT(warnings("hearth", replaced(shaft, "[-0.5, 2.0]", "[-6.5, 2.0]")),
+              ::testing::AllOf(::testing::HasSubstr("No path leads from the stock plane to"),
+                               ::testing::HasSubstr("let the mesh begin higher")));
 }
 
 }  // namespace
