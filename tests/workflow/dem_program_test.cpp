@@ -33,13 +33,16 @@ std::vector<std::string> stage_command(const std::filesystem::path& folder, int 
           "-n",           std::to_string(ranks), CUPOLA_DEM,  folder.string()};
 }
 
-Task tiny_task(int ranks) {
+Task tiny_task(int ranks, DemSettings::GasModel gas = DemSettings::GasModel::quasi_steady) {
   Task task;
   task.kind = TaskKind::dem;
   task.campaign = load_campaign(CUPOLA_TINY);
   task.campaign.launch.ranks = ranks;
+  task.campaign.dem.gas = gas;
+  const bool transient = gas == DemSettings::GasModel::transient;
+  if (transient) task.campaign.dead_man = DeadMan{0.4, 1};
   task.campaign.dem.relaxation = 0.1;
-  task.campaign.dem.window = 0.3;
+  task.campaign.dem.window = transient ? 0.1 : 0.3;  // its steps are short
   task.campaign.charging.stock_line = 1.6;
   task.campaign_hash = hash_text("tiny");
   task.program_version = program_version;
@@ -61,7 +64,9 @@ void check_result(const std::filesystem::path& folder, const Task& task) {
   const FieldFile result(folder / "result.hdf", "dem-result");
   const auto summary = result.summary();
   EXPECT_LT(std::abs(summary.at("ledger").at("residual").get<double>()), 1e-13);
-  EXPECT_LT(summary.at("momentum_residual").get<double>(), 1e-12);
+  const bool transient = task.campaign.dem.gas == DemSettings::GasModel::transient;
+  // The transient gas's first steps give next to no drag: what they leave of the balance is over that.
+  EXPECT_LT(summary.at("momentum_residual").get<double>(), transient ? 1e-6 : 1e-12);
   EXPECT_GT(summary.at("packing_fraction").get<double>(), 0.4);
   EXPECT_LT(summary.at("packing_fraction").get<double>(), 0.75);
   EXPECT_NEAR(summary.at("window_seconds").get<double>(), task.campaign.dem.window, 1e-9);
@@ -107,12 +112,12 @@ std::vector<nlohmann::json> history_of(const std::filesystem::path& folder) {
   return history;
 }
 
-class DemProgram : public testing::TestWithParam<int> {};
+class DemProgram : public testing::TestWithParam<std::pair<int, DemSettings::GasModel>> {};
 
 TEST_P(DemProgram, RunsStopsAndGoesOnAsIfNothingHadHappened) {
   const TemporaryFolder temporary;
-  const int ranks = GetParam();
-  const Task task = tiny_task(ranks);
+  const auto& [ranks, gas] = GetParam();
+  const Task task = tiny_task(ranks, gas);
   const auto undisturbed = temporary.path() / "undisturbed";
   prepare_task(undisturbed, task);
   ASSERT_EQ(wait_for(start(stage_command(undisturbed, ranks))), 0) << read_text(undisturbed / "stage.log");
@@ -157,7 +162,10 @@ TEST_P(DemProgram, RunsStopsAndGoesOnAsIfNothingHadHappened) {
   check_result(second, next);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ranks, DemProgram, testing::Values(1, 2));
+INSTANTIATE_TEST_SUITE_P(Ranks, DemProgram,
+                         testing::Values(std::pair{1, DemSettings::GasModel::quasi_steady},
+                                         std::pair{2, DemSettings::GasModel::quasi_steady},
+                                         std::pair{1, DemSettings::GasModel::transient}));
 
 TEST(DemProgram, ABedThatIsTakenAwayEndsWithAdvice) {
   const TemporaryFolder temporary;

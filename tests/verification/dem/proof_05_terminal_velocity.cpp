@@ -47,7 +47,7 @@ double fallen_speed(GasScene& scene, DemSettings::GasModel model, double reynold
   const double block = 0.15 * terminal / gravity;
   auto engine = box_engine(campaign, block / steps);
   engine->add({new_parcel(campaign, 1, 0, {0.07, 0.06, 0.85}, {})});
-  for (int blocks = 0; blocks < 70; ++blocks) {  // ten times terminal/gravity
+  for (int blocks = 0; blocks < 50; ++blocks) {  // seven times terminal/gravity
     if (model == DemSettings::GasModel::transient) {
       advance_with_gas(*engine, solids, *gas, block / steps, steps);
     } else {
