@@ -32,7 +32,7 @@ std::string what_happened(const json& failure) {
 }
 
 std::string failure_text(const json& failure) {
-  const std::string text = what_happened(failure);
+  std::string text = what_happened(failure);
   const std::vector<std::string> advice = entries(failure, "advice", "{}: {}");
   if (advice.empty()) return text;
   return fmt::format("{}{} Try {}.", text, text.ends_with('.') ? "" : ".", fmt::join(advice, " or "));
