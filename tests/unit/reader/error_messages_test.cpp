@@ -51,7 +51,7 @@ const std::vector<Mistake> mistakes{
     {"half an episode", "2 episodes", "2.5 episodes", {R"(26:18: converged.for: expected a whole number, but `2.5 episodes` stands here)"}},
     {"half an episode, number", "2 episodes", "2.5", {R"(26:18: converged.for: expected a number of episodes (like 2 episodes), but `2.5` stands here)"}},
     {"missing key", ", z: 0.5 m", "", {R"(8:9: scene.gas.inlets[0]: an inlet in a side wall needs `z`)"}},
-    {"missing required", "heat_capacity: 850, ", "", {R"(10:3: species.coke: the key `heat_capacity` is missing: expected a specific heat capacity (like 850 J/kg/K) or a table over the temperature)"}},
+    {"missing required", "heat_capacity: 850, ", "", {R"(10:3: species.coke: the key `heat_capacity` is missing: with `heat` every species needs it (like 850 J/kg/K))"}},
     {"missing section", "descent_rate: 2 mm/s\n", "", {R"(1:1: the key `descent_rate` is missing: expected a speed (like 2 mm/s))"}},
     {"not positive", "diameter: 44 mm", "diameter: -44 mm", {R"(10:20: species.coke.diameter: must be greater than 0, but is -0.044 m)"}},
     {"restitution above one", "restitution: 0.5", "restitution: 1.5", {R"(15:30: contacts.pairs.coke-coke.restitution: must be at most 1, but is 1.5)"}},
