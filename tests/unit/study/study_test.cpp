@@ -84,8 +84,8 @@ TEST_F(StudyFile, EveryWrongThingIsNamedWithItsPlace) {
   EXPECT_THAT(said, HasSubstr(":7:18: vary[2].tracer.gas[0]: expected one of none, darcy-forchheimer, navier-stokes"));
   EXPECT_THAT(said, HasSubstr("the scene has no `cokes` in `species` (did you mean `coke`?)"));
   EXPECT_THAT(said, HasSubstr("the scene has 2 of `raceways`, counted from 0: there is no [2]"));
-  EXPECT_THAT(said,
-              HasSubstr("a campaign has no key `time_step` (did you mean `dem.time_step` or `tracer.time_step`?)"));
+  EXPECT_THAT(said, HasSubstr("a campaign has no key `time_step` (did you mean `dem.time_step` or "
+                              "`dem.transient.time_step` or `tracer.time_step`?)"));
   EXPECT_THAT(said, HasSubstr("reference.setting.tracer.accuracy: `tracer.accuracy` is not varied in this study"));
 }
 
