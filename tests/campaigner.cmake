@@ -25,7 +25,7 @@ if(TARGET cupola AND TARGET cupola-dem AND TARGET cupola-tracer)
   add_test(NAME workflow_predict_and_verify
            COMMAND "${CMAKE_CURRENT_LIST_DIR}/workflow/predict_and_verify_test.sh" $<TARGET_FILE:cupola> "${CMAKE_SOURCE_DIR}"
                    "${CMAKE_CURRENT_BINARY_DIR}/predict_and_verify")
-  set_tests_properties(workflow_predict_and_verify PROPERTIES LABELS workflow TIMEOUT 300)
+  set_tests_properties(workflow_predict_and_verify PROPERTIES LABELS workflow TIMEOUT 900 PROCESSORS 2)
   add_test(NAME workflow_retry COMMAND "${CMAKE_CURRENT_LIST_DIR}/workflow/retry_test.sh" $<TARGET_FILE:cupola>
                                        "${CMAKE_SOURCE_DIR}" "${CMAKE_CURRENT_BINARY_DIR}/retry")
   set_tests_properties(workflow_retry PROPERTIES LABELS workflow TIMEOUT 300)
