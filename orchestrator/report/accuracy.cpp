@@ -17,10 +17,6 @@ using nlohmann::json;
 
 constexpr double an_hour = 3600;
 
-std::string percent(double share) {
-  return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
-}
-
 /// Lines of a history that have the number, with the wall time of the campaign up to them.
 json curve(const StageReport& stage, double wall_before, const std::string& pointer) {
   json entry = {{"episode", stage.episode}, {"wall_seconds", json::array()}, {"error", json::array()}};

@@ -36,4 +36,8 @@ nlohmann::json number_or_null(const nlohmann::json& value, const std::string& po
   return number ? nlohmann::json(*number) : nlohmann::json(nullptr);
 }
 
+std::string percent(double share) {
+  return share >= 1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
 }  // namespace cupola

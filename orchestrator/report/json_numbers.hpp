@@ -11,6 +11,9 @@ namespace cupola {
 nlohmann::json rounded(double value, int digits = 6);
 nlohmann::json rounded(const std::vector<double>& values, int digits = 6);
 
+/// `0.034` is `3.4 %`.
+std::string percent(double share);
+
 /// The finite number at a JSON pointer (`/ledger/mass/in`); none where there is nothing or something else.
 std::optional<double> number_at(const nlohmann::json& value, const std::string& pointer);
 /// The same as JSON: null where there is none.

@@ -33,8 +33,6 @@ json judgement_of(const RunRecord& run, int episode) {
   return judgement;
 }
 
-std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
-
 void add_episode(const RunRecord& run, const json& episode, json& steps) {
   const int index = episode.at("index");
   steps.push_back(step(index, "DEM stage", episode.at("dem")));

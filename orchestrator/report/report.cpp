@@ -45,7 +45,7 @@ json stage_entry(const StageReport& stage) {
 }
 
 /// The journal's judgement of an episode, its parts null by rule where there is none yet.
-json judgement_of(const RunRecord& run, int episode) {
+json judgement_by_rule(const RunRecord& run, int episode) {
   json judgement = {{"change", {{"temperature", nullptr}, {"cohesive_zone", nullptr}, {"granular_velocity", nullptr}}},
                     {"figure", json::object()},
                     {"lambda", json::object()}};
@@ -63,7 +63,7 @@ json episodes_of(const RunRecord& run, const std::vector<StageReport>& stages) {
   json episodes = json::array();
   for (const StageReport& stage : stages) {
     if (stage.kind == TaskKind::dem) {
-      const json judgement = judgement_of(run, stage.episode);
+      const json judgement = judgement_by_rule(run, stage.episode);
       episodes.push_back({{"index", stage.episode},
                           {"dem", stage_entry(stage)},
                           {"tracer", nullptr},

@@ -8,6 +8,7 @@
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/gas_state.hpp"
 #include "physics/equations/cell_failure.hpp"
+#include "physics/gas/cell_vectors.hpp"
 #include "physics/gas/inertia.hpp"
 #include "schemas/failure.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 constexpr double acceptable_mass_residual = 1e-7;
 /// Where the gas is faster than its heat allows, its static temperature is held at this share of the total one.
 constexpr double least_static_share = 0.5;
-
-double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace
 

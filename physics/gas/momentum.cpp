@@ -5,15 +5,9 @@
 
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/sutherland.hpp"
+#include "physics/gas/cell_vectors.hpp"
 
 namespace cupola {
-namespace {
-
-void add(Vector3& sum, double factor, const Vector3& vector) {
-  for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += factor * vector[axis];
-}
-
-}  // namespace
 
 MomentumTerms momentum_terms(const BedMesh& mesh, const FaceGeometry& geometry, const Openings& openings,
                              const Gas& gas, const MomentumState& state) {

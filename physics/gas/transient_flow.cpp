@@ -8,18 +8,14 @@
 #include "physics/closures/gas_properties.hpp"
 #include "physics/closures/sutherland.hpp"
 #include "physics/equations/cell_failure.hpp"
+#include "physics/gas/cell_vectors.hpp"
 
 namespace cupola {
 namespace {
 
-constexpr double mass_tolerance = 1e-10;
-constexpr double acceptable_mass_residual = 1e-6;
-
-double magnitude(const Vector3& v) { return std::sqrt(dot(v, v)); }
-
-void add(Vector3& sum, double factor, const Vector3& vector) {
-  for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += factor * vector[axis];
-}
+// Of a time step's pressure equation, over the flows through the bed.
+constexpr double step_tolerance = 1e-10;
+constexpr double acceptable_step_residual = 1e-6;
 
 }  // namespace
 
@@ -180,7 +176,7 @@ void TransientFlow::correct(const Solids& solids, const std::vector<double>& tem
   for (const double flux : flux_before) flows = std::max(flows, std::abs(flux));
   mass_residual_ =
       equation_
-          .solve("gas pressure", coefficients, source, above, mass_tolerance * flows, acceptable_mass_residual * flows)
+          .solve("gas pressure", coefficients, source, above, step_tolerance * flows, acceptable_step_residual * flows)
           .residual /
       flows;
   for (std::size_t cell = 0; cell < cells; ++cell) {
