@@ -68,7 +68,7 @@ class March {
       const auto order = stage_order(kind, finished_, now, run_.path(), run_.campaign());
       if (!order) continue;
       const StagePlace place{episode, limit_, kind, 1};
-      if (kind == TaskKind::dem || kind == TaskKind::tracer) {
+      if (!can_be_left_out(kind)) {
         const auto folder = stages_.finish(place, *order);
         if (!folder) return on_request;
         (kind == TaskKind::dem ? now.dem : now.tracer) = *folder;

@@ -57,11 +57,10 @@ Present present_stage(const RunRecord& run, int at_most) {
   for (int episode = 1; episode <= at_most; ++episode) {
     for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
       StageState state = stage_state(run.folder, run.journal, episode, kind);
-      const bool left_out = kind == TaskKind::predict || kind == TaskKind::correct;
-      if (state.condition == Condition::absent && left_out) continue;
+      if (state.condition == Condition::absent && can_be_left_out(kind)) continue;
       if (state.condition == Condition::absent && (episode > 1 || kind != TaskKind::dem)) return present;
       present = {episode, kind, std::move(state)};
-      if (present.state.condition == Condition::failed && left_out) continue;
+      if (present.state.condition == Condition::failed && can_be_left_out(kind)) continue;
       if (present.state.condition != Condition::finished) return present;
     }
   }
@@ -135,15 +134,15 @@ double mean_wall_seconds(const RunRecord& run, TaskKind kind) {
   return stages > 0 ? sum / stages : 0;
 }
 
-/// Wall time of a stage that has not been finished yet, by the plan and the rates of this machine; 0 where the plan
+/// Cost of the campaign on the ranks that it has now, by the plan and the rates of this machine; none where the plan
 /// cannot be made.
-double expected_wall_seconds(const RunRecord& run, TaskKind kind) {
+std::optional<Cost> cost_in_force(const RunRecord& run) {
   try {
-    const Cost cost = make_plan(run.campaign, measured_rates()).cost;
-    return (kind == TaskKind::dem ? cost.dem_core_seconds : cost.tracer_core_seconds) /
-           ranks_in_force(run.journal, run.campaign.launch.ranks);
+    Campaign campaign = run.campaign;
+    campaign.launch.ranks = ranks_in_force(run.journal, campaign.launch.ranks);
+    return make_plan(campaign, measured_rates()).cost;
   } catch (const Failure&) {
-    return 0;
+    return std::nullopt;
   }
 }
 
@@ -162,10 +161,13 @@ json remaining(const RunRecord& run, const Present& present, int at_most) {
                  {"why", trend ? trend->why : "a trend is known after two episodes"}};
   // Wall time of an episode, and of its stages before the present one.
   double whole = 0, before = 0, present_one = 0;
+  std::optional<Cost> expected;
   for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
     double stage = mean_wall_seconds(run, kind);
-    if (stage <= 0 && (kind == TaskKind::dem || kind == TaskKind::tracer)) {
-      stage = expected_wall_seconds(run, kind);
+    if (stage <= 0 && !can_be_left_out(kind)) {
+      if (!expected) expected = cost_in_force(run);
+      if (!expected) return result;
+      stage = kind == TaskKind::dem ? expected->dem_wall_seconds() : expected->tracer_wall_seconds();
       if (stage <= 0) return result;
       result["by_expectation"] = true;
     }

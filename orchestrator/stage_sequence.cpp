@@ -39,6 +39,8 @@ std::string stage_title(TaskKind kind, int episode) {
   }
 }
 
+bool can_be_left_out(TaskKind kind) { return kind == TaskKind::predict || kind == TaskKind::correct; }
+
 const std::vector<TaskKind>& stages_of_episode(Strategy strategy) {
   static const std::vector<TaskKind> marching = {TaskKind::dem, TaskKind::tracer};
   return strategy == Strategy::march ? marching : all_stages_of_episode();

@@ -17,6 +17,9 @@ std::string stage_title(TaskKind kind, int episode);
 /// Episode of the prediction that a campaign begins with.
 inline constexpr int before_all_episodes = 0;
 
+/// Can a campaign go on marching without it?  So it can without predictions and corrections.
+bool can_be_left_out(TaskKind kind);
+
 /// The stages of an episode, in their order.
 const std::vector<TaskKind>& stages_of_episode(Strategy strategy);
 /// Every kind of stage that an episode can have, in their order.

@@ -6,6 +6,7 @@
 
 #include "physics/closures/drag.hpp"
 #include "physics/closures/gas_properties.hpp"
+#include "physics/gas/inlets_json.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/process_time.hpp"
 
@@ -136,16 +137,10 @@ std::vector<double> GasCoupling::velocity() const {
 }
 
 nlohmann::json GasCoupling::summary() const {
-  nlohmann::json inlets = nlohmann::json::array();
-  for (const auto& inlet : flow_.inlets())
-    inlets.push_back({{"name", inlet.name},
-                      {"pressure", inlet.state.static_pressure},
-                      {"velocity", inlet.state.velocity},
-                      {"mach", inlet.state.mach_number}});
   return {{"flow_solves", solves_},
           {"cells_at_void_floor", cells_at_floor_},
           {"inertia_over_drag_largest", flow_.inertia_over_drag_largest()},
-          {"inlets", inlets}};
+          {"inlets", inlets_json(flow_.inlets())}};
 }
 
 void GasCoupling::save(HdfWriter& file) const {

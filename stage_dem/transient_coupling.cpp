@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "physics/gas/cell_vectors.hpp"
+#include "physics/gas/inlets_json.hpp"
 #include "stage_dem/parcels.hpp"
 
 namespace cupola {
@@ -18,8 +20,6 @@ constexpr double growth = 1.5;
 constexpr double of_stopping_time = 0.1;
 /// The first step over a block: the flow it finds says how long the next may be.
 constexpr double first_step = 1e-3;
-
-double norm(const Vector3& v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace
 
@@ -82,7 +82,7 @@ std::vector<ParcelForce> TransientCoupling::forces(const SolidsOnMesh& solids, c
   double scale = 0;
   for (std::size_t cell = 0; cell < mesh_.cells(); ++cell) {
     if (!(volume[cell] > 0)) continue;
-    scale += mesh_.cell_volume[cell] * norm(flow_.drag()[cell]);
+    scale += mesh_.cell_volume[cell] * magnitude(flow_.drag()[cell]);
     for (std::size_t k = 0; k < 3; ++k) {
       drag[k][cell] = mesh_.cell_volume[cell] / volume[cell] * flow_.drag()[cell][k];
       buoyancy[k][cell] = -flow_.pressure_gradient()[cell][k];
@@ -108,7 +108,7 @@ std::vector<ParcelForce> TransientCoupling::forces(const SolidsOnMesh& solids, c
   MPI_Allreduce(MPI_IN_PLACE, total.data(), 3, MPI_DOUBLE, MPI_SUM, communicator_);
   Vector3 left = flow_.force_of_solids();
   for (std::size_t k = 0; k < 3; ++k) left[k] += total[k];
-  if (scale > 0) momentum_residual_ = std::max(momentum_residual_, norm(left) / scale);
+  if (scale > 0) momentum_residual_ = std::max(momentum_residual_, magnitude(left) / scale);
   return forces;
 }
 
@@ -120,17 +120,11 @@ std::vector<double> TransientCoupling::velocity() const {
 }
 
 nlohmann::json TransientCoupling::summary() const {
-  nlohmann::json inlets = nlohmann::json::array();
-  for (const auto& inlet : flow_.inlets())
-    inlets.push_back({{"name", inlet.name},
-                      {"pressure", inlet.state.static_pressure},
-                      {"velocity", inlet.state.velocity},
-                      {"mach", inlet.state.mach_number}});
   return {{"flow_solves", steps_},
           {"cells_at_void_floor", cells_at_floor_},
           {"mass_residual", mass_residual_},
           {"last_step", last_step_},
-          {"inlets", inlets}};
+          {"inlets", inlets_json(flow_.inlets())}};
 }
 
 void TransientCoupling::save(HdfWriter& file) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "physics/gas/inlets_json.hpp"
 #include "schemas/field_file.hpp"
 #include "stage_tracer/bed_composition.hpp"
 #include "stage_tracer/ore_temperature.hpp"
@@ -146,14 +147,7 @@ void write_gas(FieldFileWriter& file, const Campaign& campaign, const GasModel& 
   summary["flow_skips"] = gas.flow_skips();
   summary["energy_solves"] = gas.energy_solves();
   summary["inertia_over_drag_largest"] = gas.flow().inertia_over_drag_largest();
-  nlohmann::json inlets = nlohmann::json::array();
-  for (const auto& inlet : gas.flow().inlets()) {
-    inlets.push_back({{"name", inlet.name},
-                      {"pressure", inlet.state.static_pressure},
-                      {"velocity", inlet.state.velocity},
-                      {"mach", inlet.state.mach_number}});
-  }
-  summary["inlets"] = inlets;
+  summary["inlets"] = inlets_json(gas.flow().inlets());
   if (!campaign.heat) return;
   file.cell_data("gas_temperature", gas.temperature());
   summary["top_gas_temperature"] = gas.energy_ledger().top_gas_temperature;

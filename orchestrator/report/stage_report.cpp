@@ -103,10 +103,9 @@ std::vector<StageReport> read_stage_reports(const RunRecord& run) {
   for (int episode = 1;; ++episode) {
     for (const TaskKind kind : stages_of_episode(run.campaign.strategy)) {
       StageReport stage = read_stage_report(run, episode, kind);
-      const bool left_out = kind == TaskKind::predict || kind == TaskKind::correct;
       if (stage.state.condition != StageState::Condition::absent) {
         stages.push_back(std::move(stage));
-      } else if (!left_out) {
+      } else if (!can_be_left_out(kind)) {
         return stages;
       }
     }

@@ -28,10 +28,12 @@ struct Cost {
   int ranks = 1;
   double busy_cores = 1;  ///< ranks that really work at once: without Slurm no more than this machine has cores
   int fewest_episodes = 0, most_episodes = 0;  ///< a remaining change can be extrapolated from the third episode on
-  [[nodiscard]] double episode_wall_seconds() const { return (dem_core_seconds + tracer_core_seconds) / busy_cores; }
+  [[nodiscard]] double dem_wall_seconds() const { return dem_core_seconds / busy_cores; }
+  [[nodiscard]] double tracer_wall_seconds() const { return tracer_core_seconds / busy_cores; }
+  [[nodiscard]] double episode_wall_seconds() const { return dem_wall_seconds() + tracer_wall_seconds(); }
   /// How long a stage that is asked to stop goes on, before it writes its checkpoint: a block, or a step, at most.
-  [[nodiscard]] double dem_block_wall_seconds() const { return dem_core_seconds / dem_blocks / busy_cores; }
-  [[nodiscard]] double tracer_step_wall_seconds() const { return tracer_core_seconds / tracer_steps / busy_cores; }
+  [[nodiscard]] double dem_block_wall_seconds() const { return dem_wall_seconds() / dem_blocks; }
+  [[nodiscard]] double tracer_step_wall_seconds() const { return tracer_wall_seconds() / tracer_steps; }
 };
 
 Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,

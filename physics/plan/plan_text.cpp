@@ -104,9 +104,9 @@ void write_cost(Text& text, const Plan& plan) {
        100 * plan.dem_step.fraction(), plan.dem_step.reference_name, plan.dem_step.species, plan.dem_step.reference,
        plan.dem_step.steps_per_block);
   line(text, "  DEM stage: at most {:.3g} s simulated, {:.3g} steps, about {}", cost.dem_process_seconds,
-       cost.dem_steps, duration(cost.dem_core_seconds / cost.busy_cores));
+       cost.dem_steps, duration(cost.dem_wall_seconds()));
   line(text, "  tracer stage: {:.3g} tracers, {:.3g} steps of {:.3g} s, about {}", cost.tracers, cost.tracer_steps,
-       cost.tracer_time_step, duration(cost.tracer_core_seconds / cost.busy_cores));
+       cost.tracer_time_step, duration(cost.tracer_wall_seconds()));
   line(text, "  an episode takes about {} on {} rank(s), the first longer: its bed has to be filled",
        duration(cost.episode_wall_seconds()), cost.ranks);
   line(text, "  {} to {} episodes: {} to {}", cost.fewest_episodes, cost.most_episodes,

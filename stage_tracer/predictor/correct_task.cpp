@@ -128,12 +128,7 @@ ExitCode correct(FoamCase& foam, const std::filesystem::path& folder, const Task
   const double tendency = hour * size(measured.tendency);
 
   const Ledger ledger = predictor.ledger();
-  MarchOutcome result{mesh, predictor.field(), averages, ledger};
-  result.gas = &predictor.gas();
-  result.ranks = foam.ranks();
-  result.cells_at_floor = predictor.cells_at_floor();
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  result.wall_seconds_by_part = clock.seconds();
+  MarchOutcome result = predictor.march_outcome(averages, ledger, started, clock);
   // The zone stays where the march has it: below the last ore its temperature is a continuation, of which differences
   // mean nothing.
   if (can_melt(campaign))

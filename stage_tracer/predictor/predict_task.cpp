@@ -73,12 +73,7 @@ ExitCode predict(FoamCase& foam, const std::filesystem::path& folder, const Task
   }
   averages.add(contents, campaign, 1.0);
   const Ledger ledger = predictor.ledger();
-  MarchOutcome result{mesh, predictor.field(), averages, ledger};
-  result.gas = &predictor.gas();
-  result.ranks = foam.ranks();
-  result.cells_at_floor = predictor.cells_at_floor();
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  result.wall_seconds_by_part = clock.seconds();
+  MarchOutcome result = predictor.march_outcome(averages, ledger, started, clock);
   for (const auto& [part, seconds] : result.wall_seconds_by_part) spdlog::info("{}: {:.3g} s", part, seconds);
   result.prediction = as_json(outcome, dem.has_value());
   result.more_cell_data[predicted_share_name] = predictor.share();

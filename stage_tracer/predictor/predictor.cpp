@@ -282,6 +282,17 @@ void Predictor::look_for_warnings(const MeltingZone& zone, Outcome& outcome) con
   }
 }
 
+MarchOutcome Predictor::march_outcome(const Averages& averages, const Ledger& ledger,
+                                      std::chrono::steady_clock::time_point started, const PartClock& clock) const {
+  MarchOutcome result{mesh_, field(), averages, ledger};
+  result.gas = &gas_;
+  result.ranks = foam_.ranks();
+  result.cells_at_floor = bed_.cells_at_floor;
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  result.wall_seconds_by_part = clock.seconds();
+  return result;
+}
+
 Ledger Predictor::ledger() const {
   Ledger ledger;
   ledger.tally = solids_.rates;

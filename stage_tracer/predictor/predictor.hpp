@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -66,7 +67,9 @@ class Predictor {
   /// As the tracer stage's, of one second of the steady state; nothing is stored.
   [[nodiscard]] Ledger ledger() const;
   [[nodiscard]] const GasModel& gas() const { return gas_; }
-  [[nodiscard]] std::int64_t cells_at_floor() const { return bed_.cells_at_floor; }
+  /// For `write_result`; averages and ledger must outlive it. @param started when the task began
+  [[nodiscard]] MarchOutcome march_outcome(const Averages& averages, const Ledger& ledger,
+                                           std::chrono::steady_clock::time_point started, const PartClock& clock) const;
 
  private:
   void compose(const CellContents& contents);

@@ -1,21 +1,6 @@
 # Sourced by the tests: starting things and looking how far they are; $work is the test's folder.
 
-# status_of COMMAND...: runs it, its words into the log, and prints its exit status.
-status_of() {
-  echo "== $*" >> "$work/out"
-  "$@" >> "$work/out" 2>&1
-  echo $?
-}
-
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local until=$((SECONDS + $1))
-  shift
-  until "$@" > /dev/null 2>&1; do
-    [[ $SECONDS -lt $until ]] || return 1
-    sleep 0.1
-  done
-}
+. "$here/../support/looks.sh"
 
 # events RUN WHAT...: how many lines of the journal hold all of these.
 events() {

@@ -13,31 +13,7 @@ sed -e "s/^launch:.*/launch: {ranks: $ranks}/" -e 's/^dem:.*/dem: {relaxation: 0
   -e 's/^tracer:.*/tracer: {duration: 1 h, accuracy: 5 %}/' "$source/cases/tiny/campaign.yaml" > "$work/campaign.yaml"
 run=$work/disturbed
 
-fail() {
-  echo "FAILED: $*"
-  [[ -f $work/out ]] && tail -n 20 "$work/out"
-  exit 1
-}
-
-# status_of COMMAND...: runs it, its words into the log, and prints its exit status.
-status_of() {
-  echo "== $*" >> "$work/out"
-  "$@" >> "$work/out" 2>&1
-  echo $?
-}
-
-# The process of mpirun of the stage that was started last.
-stage_process() { grep '"event":"stage-started"' "$run/journal.jsonl" | tail -n 1 | sed 's/.*"pid":\([0-9]*\).*/\1/'; }
-
-# wait_for SECONDS COMMAND...: until the command succeeds.
-wait_for() {
-  local until=$((SECONDS + $1))
-  shift
-  until "$@" > /dev/null 2>&1; do
-    [[ $SECONDS -lt $until ]] || return 1
-    sleep 0.03
-  done
-}
+. "$(dirname "$0")/../support/looks.sh"
 
 # begin: goes on with the disturbed run in the background.
 begin() {

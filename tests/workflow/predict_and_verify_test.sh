@@ -14,17 +14,7 @@ mkdir -p "$work"
 } > "$work/campaign.yaml"
 run=$work/disturbed
 
-fail() {
-  echo "FAILED: $*"
-  [[ -f $work/out ]] && tail -n 20 "$work/out"
-  exit 1
-}
-
-status_of() {
-  echo "== $*" >> "$work/out"
-  "$@" >> "$work/out" 2>&1
-  echo $?
-}
+. "$(dirname "$0")/../support/looks.sh"
 
 # number KEY...: what report.json of the run left alone says, `null` where it says nothing.
 number() { node -e 'let v = JSON.parse(require("fs").readFileSync(process.argv[1])); for (const k of process.argv.slice(2)) v = v?.[k]; console.log(v ?? null)' "$work/alone/report/report.json" "$@"; }
@@ -56,7 +46,7 @@ killed_in() {
     sleep 0.02
   done
   local mpirun
-  mpirun=$(grep '"event":"stage-started"' "$run/journal.jsonl" | tail -n 1 | sed 's/.*"pid":\([0-9]*\).*/\1/')
+  mpirun=$(stage_process)
   kill -KILL "$orchestrator" "$mpirun" $(pgrep -P "$mpirun") 2> /dev/null
   wait "$orchestrator" 2> /dev/null
 }
