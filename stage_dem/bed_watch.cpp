@@ -42,30 +42,40 @@ double distance_from_walls(const Campaign& campaign, const Vector3& point) {
 
 }  // namespace
 
+double wall_overlap(const Campaign& campaign, const Parcel& parcel) {
+  return 1 - distance_from_walls(campaign, parcel.position) / parcel.radius;
+}
+
 double largest_wall_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels) {
   double largest = 0;
-  for (const auto& parcel : parcels)
-    largest = std::max(largest, 1 - distance_from_walls(campaign, parcel.position) / parcel.radius);
+  for (const auto& parcel : parcels) largest = std::max(largest, wall_overlap(campaign, parcel));
   return largest;
 }
 
 double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator) {
-  const double diameter = largest_diameter(campaign);
-  NeighbourGrid grid(diameter, period(campaign));
-  for (std::size_t i = 0; i < parcels.size(); ++i) grid.add(parcels[i].position, i);
   int rank = 0;
   int ranks = 1;
   MPI_Comm_rank(communicator, &rank);
   MPI_Comm_size(communicator, &ranks);
-  double largest = 0;
-  for (auto i = static_cast<std::size_t>(rank); i < parcels.size(); i += static_cast<std::size_t>(ranks))
-    grid.near(parcels[i].position, [&](std::size_t j, const Vector3& way) {
-      if (j == i) return;
-      const double overlap = parcels[i].radius + parcels[j].radius - norm(way);
-      largest = std::max(largest, overlap / std::min(parcels[i].radius, parcels[j].radius));
-    });
+  double largest =
+      deepest_overlap(campaign, parcels, static_cast<std::size_t>(rank), static_cast<std::size_t>(ranks)).depth;
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, communicator);
   return largest;
+}
+
+Overlap deepest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, std::size_t first,
+                        std::size_t stride) {
+  NeighbourGrid grid(largest_diameter(campaign), period(campaign));
+  for (std::size_t i = 0; i < parcels.size(); ++i) grid.add(parcels[i].position, i);
+  Overlap deepest;
+  for (std::size_t i = first; i < parcels.size(); i += stride)
+    grid.near(parcels[i].position, [&](std::size_t j, const Vector3& way) {
+      if (j == i) return;
+      const double depth =
+          (parcels[i].radius + parcels[j].radius - norm(way)) / std::min(parcels[i].radius, parcels[j].radius);
+      if (depth > deepest.depth) deepest = {depth, i, j};
+    });
+  return deepest;
 }
 
 BedMotion bed_motion(const std::vector<Parcel>& parcels, const std::set<std::int64_t>& falling, double seconds) {

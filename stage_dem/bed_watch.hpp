@@ -12,6 +12,18 @@ namespace cupola {
 /// @param parcels all, the same on every rank
 double largest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, MPI_Comm communicator);
 
+/// Two parcels and how deep they overlap, over the smaller radius.
+struct Overlap {
+  double depth = 0;
+  std::size_t first = 0, second = 0;  ///< places in the list
+};
+/// The deepest one that a parcel of every `stride`th place, from `first` on, has with any other.
+Overlap deepest_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels, std::size_t first = 0,
+                        std::size_t stride = 1);
+
+/// Overlap of a parcel with the nearest wall over its radius; as below.
+double wall_overlap(const Campaign& campaign, const Parcel& parcel);
+
 /// Largest overlap of a parcel with the floor, a side wall or (where the sides are walls) front and back, over its
 /// radius.  The walls go on above the mesh as the charging hopper.  Above 1 the centre is beyond the wall.
 double largest_wall_overlap(const Campaign& campaign, const std::vector<Parcel>& parcels);

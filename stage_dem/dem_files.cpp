@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "physics/mesh/wall_check.hpp"
 #include "schemas/field_file.hpp"
 #include "schemas/files.hpp"
 #include "stage_dem/liggghts_engine.hpp"
+#include "stage_dem/packing_check.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/part_timer.hpp"
 
@@ -20,6 +22,7 @@ constexpr double usual_checkpoint_interval = 300;  // s of wall time
 void DemFiles::make_engine(std::vector<std::uint8_t> snapshot) {
   EngineSetUp set_up;
   set_up.wall_file = (stage_.folder_ / "foam" / "wall.stl").string();
+  check_walls(stage_.campaign_, read_stl(set_up.wall_file), set_up.wall_file);
   set_up.folder = stage_.folder_.string();
   set_up.time_step = stage_.step_.step;
   set_up.from = std::move(snapshot);
@@ -87,6 +90,7 @@ void DemFiles::load_packing() {
   }
   if (parcels.empty())
     throw Failure(ExitCode::wrong_input, "the packing handed over holds no parcel").at("file", input.file.string());
+  check_packing(stage_.campaign_, parcels, input.file.string());
   const auto next_layer = file.integers("Charging/next_layer", 1);
   charging.next_layer = next_layer[0];
   const auto owed = file.doubles("Charging/owed", static_cast<std::int64_t>(charging.owed.size()));

@@ -23,6 +23,7 @@
 #include "orchestrator/report/warnings.hpp"
 #include "orchestrator/run_folder.hpp"
 #include "orchestrator/stage_sequence.hpp"
+#include "physics/plan/scene_warnings.hpp"
 #include "schemas/campaign_words.hpp"
 #include "schemas/files.hpp"
 
@@ -249,7 +250,9 @@ json gather(const RunRecord& run, const std::vector<StageReport>& stages) {
                       {"maps", field_maps(drawn, campaign)}};
   report["accuracy"] = accuracy_and_cost(stages, report);
   report["provenance"] = provenance(run, stages);
-  report["warnings"] = warnings(report);
+  std::vector<std::string> told = scene_warnings(campaign);
+  for (std::string& warning : warnings(report)) told.push_back(std::move(warning));
+  report["warnings"] = told;
   report["answers"] = answers(report);
   return report;
 }

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "physics/closures/drag.hpp"
 #include "physics/closures/gas_state.hpp"
 #include "physics/plan/expected_parcels.hpp"
 #include "physics/plan/inlet_flows.hpp"
 #include "physics/plan/inlet_limit.hpp"
 #include "physics/plan/physics_pieces.hpp"
+#include "physics/plan/scene_warnings.hpp"
 #include "schemas/failure.hpp"
 
 namespace cupola {
@@ -114,27 +114,6 @@ void judge_heat(const Campaign& campaign, Plan& plan) {
   }
 }
 
-/// Warns where a drag law is used far outside its range.
-void judge_drag(const Campaign& campaign, Plan& plan) {
-  if (!campaign.scene.gas || campaign.species.empty()) return;
-  double mass_flow = 0, largest = 0;
-  for (const Inlet& inlet : campaign.scene.gas->inlets) mass_flow += inlet.mass_flow;
-  for (const Species& species : campaign.species) largest = std::max(largest, species.diameter);
-  const double reynolds = mass_flow / plan.charge.area * largest / campaign.scene.gas->viscosity;
-  const bool limited = campaign.drag == DragLaw::beetstra || campaign.drag == DragLaw::koch_hill;
-  const double most = campaign.drag == DragLaw::beetstra ? 1000 : 200;
-  if (limited && reynolds > 2 * most)
-    plan.warnings.push_back(fmt::format(
-        "The drag law {} holds up to Reynolds numbers of about {:.0f}, the bed has {:.0f} at the stock line: the "
-        "pressure drop will come out too small (ergun and gidaspow hold there)",
-        drag_law_name(campaign.drag), most, reynolds));
-  if (campaign.drag == DragLaw::emms && largest > 5e-4)
-    plan.warnings.push_back(fmt::format(
-        "The drag law emms is fitted to grains of some 40 um in a riser; these are of {:.3g} mm", 1e3 * largest));
-  if (campaign.drag == DragLaw::wen_yu && !campaign.raceways.empty())
-    plan.warnings.push_back("The drag law wen-yu is for dispersed grains; in a packed bed ergun or gidaspow hold");
-}
-
 void judge_bed(const Campaign& campaign, Plan& plan) {
   if (plan.cost.busy_cores < plan.cost.ranks)
     plan.warnings.push_back(
@@ -194,8 +173,8 @@ Plan make_plan(const Campaign& asked, const Rates& rates) {
   plan.cost = expected_cost(campaign, plan.charge, plan.dem_step, std::accumulate(parcels.begin(), parcels.end(), 0.0),
                             plan.mesh.counts.cells(), rates);
   plan.physics = physics_pieces(campaign, plan.cost.parts);
+  plan.warnings = scene_warnings(campaign);
   judge_inlets(campaign, plan);
-  judge_drag(campaign, plan);
   judge_batches(campaign, plan);
   judge_heat(campaign, plan);
   judge_bed(campaign, plan);

@@ -58,6 +58,7 @@ refused() {
 }
 refused 'mesh cannot hold the tuyere' 'mesh: {cell: 0.13 m}' 'mesh: {cells: {half_width: 4, depth: 3, heights: [1, 12]}}'
 refused 'blast chokes' 'size: [0.13 m, 0.13 m], mass_flow: 0.22' 'size: [0.01 m, 0.01 m], mass_flow: 0.22'
+refused 'step above the stable one' 'dem: {' 'dem: {time_step: 2 ms, '
 refused 'wrong campaign' 'descent_rate:' 'descent_rat:'
 says 'no command' "$cupola"
 says 'unknown command' "$cupola" rum campaign.yaml

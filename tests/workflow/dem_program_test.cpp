@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <functional>
 #include <numeric>
 #include <optional>
 #include <thread>
@@ -180,6 +181,66 @@ TEST(DemProgram, ABedThatIsTakenAwayEndsWithAdvice) {
   ASSERT_TRUE(failure);
   EXPECT_NE(failure->at("sentence").get<std::string>().find("no parcel is left"), std::string::npos) << *failure;
   EXPECT_FALSE(std::filesystem::exists(temporary.path() / "result.hdf"));
+}
+
+/// A packing handed over as a stage writes it, of three parcels of coke in a row that `spoil` puts elsewhere.
+std::filesystem::path write_packing(const std::filesystem::path& folder, const Task& task,
+                                    const std::function<void(std::vector<double>& position)>& spoil) {
+  const FieldFile mesh(folder / "foam" / "mesh.hdf", "mesh");
+  const auto file = folder / "spoilt.hdf";
+  FieldFileWriter writer(file, {"dem-result", task.campaign_hash, hash_file(folder / "foam" / "mesh.hdf")},
+                         mesh.points(), mesh.cell_points());
+  const double radius = task.campaign.species[0].parcel_diameter() / 2;
+  const double mass = task.campaign.species[0].density * 4 / 3 * M_PI * std::pow(radius, 3);
+  std::vector<double> position{-0.2, 0, 0.5, 0, 0, 0.5, 0.2, 0, 0.5};
+  spoil(position);
+  writer.hdf().write("Packing/id", std::vector<std::int64_t>{1, 2, 3});
+  writer.hdf().write("Packing/species", std::vector<std::int64_t>{0, 0, 0});
+  writer.hdf().write("Packing/released", std::vector<std::int64_t>{1, 1, 1});
+  writer.hdf().write("Packing/radius", std::vector<double>(3, radius));
+  writer.hdf().write("Packing/mass", std::vector<double>(3, mass));
+  writer.hdf().write("Packing/position", position, 3);
+  for (const char* name : {"Packing/velocity", "Packing/angular_velocity"})
+    writer.hdf().write(name, std::vector<double>(9, 0), 3);
+  writer.hdf().write("Charging/next_layer", std::vector<std::int64_t>{0});
+  for (const char* name : {"Charging/owed", "Charging/carried"})
+    writer.hdf().write(name, std::vector<double>(task.campaign.species.size(), 0));
+  writer.commit();
+  return file;
+}
+
+TEST(DemProgram, APackingThatCannotBeIsRefusedBeforeAnythingMoves) {
+  const TemporaryFolder temporary;
+  Task task = tiny_task(1);
+  prepare_task(temporary.path(), task);
+  // What else is refused: PackingCheck in unit/dem/test_parts.cpp.
+  const std::vector<std::pair<std::string, std::function<void(std::vector<double>&)>>> spoilt{
+      {"parcel 1 overlaps parcel 2 by 1.", [](std::vector<double>& position) { position[3] = -0.15; }},
+      {"parcel 3 lies outside the furnace, at 0.7 0 0.5 m", [](std::vector<double>& position) { position[6] = 0.7; }}};
+  for (const auto& [sentence, spoil] : spoilt) {
+    const auto file = write_packing(temporary.path(), task, spoil);
+    task.inputs["packing"] = {file.string(), hash_file(file)};
+    write_task(temporary.path(), task);
+    EXPECT_EQ(wait_for(start(stage_command(temporary.path(), 1))), 65) << sentence;
+    const auto failure = read_failure(temporary.path());
+    ASSERT_TRUE(failure) << sentence;
+    EXPECT_NE(failure->at("sentence").get<std::string>().find(sentence), std::string::npos) << *failure;
+    EXPECT_FALSE(std::filesystem::exists(temporary.path() / "result.hdf"));
+  }
+}
+
+TEST(DemProgram, AWallWithAHoleIsRefused) {
+  const TemporaryFolder temporary;
+  prepare_task(temporary.path(), tiny_task(1));
+  const auto walls = temporary.path() / "foam" / "wall.stl";
+  std::string text = read_text(walls);
+  const auto begin = text.find("facet normal", text.size() / 2);
+  text.erase(begin, text.find("endfacet", begin) + 9 - begin);
+  write_text_atomically(walls, text);
+  EXPECT_EQ(wait_for(start(stage_command(temporary.path(), 1))), 65);
+  const auto failure = read_failure(temporary.path());
+  ASSERT_TRUE(failure);
+  EXPECT_NE(failure->at("sentence").get<std::string>().find("the wall has a hole at"), std::string::npos) << *failure;
 }
 
 TEST(DemProgram, AWrongTaskIsRefused) {

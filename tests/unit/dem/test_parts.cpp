@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "schemas/failure.hpp"
@@ -11,6 +12,7 @@
 #include "stage_dem/bed_surface.hpp"
 #include "stage_dem/bed_watch.hpp"
 #include "stage_dem/mass_books.hpp"
+#include "stage_dem/packing_check.hpp"
 #include "stage_dem/parcels.hpp"
 #include "stage_dem/pouring.hpp"
 #include "stage_dem/raceway_removal.hpp"
@@ -52,6 +54,44 @@ TEST(Random, SameNumbersForTheSameKeyAndOthersForAnother) {
   }
   EXPECT_TRUE(differs);
   EXPECT_NEAR(mean, 0.5, 0.05);
+}
+
+TEST(PackingCheck, RefusesWhatIsNoPackingOfThisFurnaceAndNamesTheParcel) {
+  const Campaign campaign = furnace();
+  std::vector<Parcel> whole;
+  for (const auto& [x, z] : {std::pair{-0.3, 0.5}, {0.0, 0.5}, {0.3, 1.7}})  // the last one still in the hopper
+    whole.push_back(new_parcel(campaign, static_cast<std::int64_t>(whole.size()) + 1, 0, {x, 0, z}));
+  EXPECT_NO_THROW(check_packing(campaign, whole, "packing"));
+  const auto said = [&](const std::function<void(std::vector<Parcel>&)>& spoil) {
+    auto parcels = whole;
+    spoil(parcels);
+    try {
+      check_packing(campaign, parcels, "packing");
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::wrong_input);
+      return std::string(failure.what());
+    }
+    return std::string("accepted");
+  };
+  using Parcels = std::vector<Parcel>;
+  const double radius = whole[0].radius;
+  const std::vector<std::pair<std::string, std::function<void(Parcels&)>>> spoilt{
+      {"parcel 1 overlaps parcel 2 by 0.50 of the radius", [&](Parcels& p) { p[1].position[0] = -0.3 + 1.5 * radius; }},
+      {"accepted", [&](Parcels& p) { p[1].position[0] = -0.3 + 1.75 * radius; }},
+      {"parcel 3 lies outside the furnace, at 0.7 0 0.5 m",
+       [](Parcels& p) {
+         p[2].position = {0.7, 0, 0.5};
+       }},
+      {"parcel 1 lies outside the furnace", [](Parcels& p) { p[0].position[2] = -0.01; }},
+      {"parcel 2 lies outside the furnace", [](Parcels& p) { p[1].position[2] = 9; }},
+      {"parcel 2 overlaps a wall by 0.70", [&](Parcels& p) { p[1].position[0] = 0.5 - 0.3 * radius; }},
+      {"accepted", [](Parcels& p) { p[1].position[1] = 0.31; }},  // beyond the period: the same place as -0.29
+      {"parcel 2 has a place or velocity that is no number", [](Parcels& p) { p[1].velocity[1] = NAN; }},
+      {"parcel 1 has a radius of 0 m", [](Parcels& p) { p[0].radius = 0; }},
+      {"parcel 1 has a radius of", [](Parcels& p) { p[0].mass = -1; }},
+      {"parcel 3 is of species 7, but the campaign has 2", [](Parcels& p) { p[2].species = 7; }},
+      {"parcel 1 is there twice", [](Parcels& p) { p[1].id = 1; }}};
+  for (const auto& [sentence, spoil] : spoilt) EXPECT_NE(said(spoil).find(sentence), std::string::npos) << said(spoil);
 }
 
 TEST(Softening, RadiusFollowsTheTemperatureAndNeverGrowsWithinAStage) {

@@ -9,6 +9,8 @@
 
 #include "physics/mesh/bed_mesh.hpp"
 #include "physics/mesh/prepare.hpp"
+#include "physics/mesh/wall_check.hpp"
+#include "schemas/failure.hpp"
 #include "schemas/files.hpp"
 #include "tests/support/furnaces.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -121,6 +123,42 @@ TEST(WallTriangles, AreTheMeshsOwnWallsWithTheTuyeresClosed) {
   const std::string text = read_text(folder.path() / "foam" / "wall.stl");
   EXPECT_TRUE(text.starts_with("solid wall\n"));
   EXPECT_TRUE(text.ends_with("endsolid wall\n"));
+}
+
+TEST(WallTriangles, AHoleAnywhereIsFoundAndNamed) {
+  const TemporaryFolder folder;
+  for (const Campaign& campaign : {furnaces::shaft(), furnaces::paper(), furnaces::box()}) {
+    const auto file = folder.path() / "wall.stl";
+    write_stl(file, wall_triangles(campaign));
+    const std::vector<Triangle> whole = read_stl(file);
+    EXPECT_EQ(whole, wall_triangles(campaign));
+    EXPECT_NO_THROW(check_walls(campaign, whole, "wall.stl"));
+    for (std::size_t missing = 0; missing < whole.size(); missing += 7) {
+      std::vector<Triangle> holed = whole;
+      holed.erase(holed.begin() + static_cast<std::ptrdiff_t>(missing));
+      EXPECT_THROW(check_walls(campaign, holed, "wall.stl"), Failure) << missing;
+    }
+    // A corner a millimetre off opens a crack.
+    std::vector<Triangle> cracked = whole;
+    cracked[whole.size() / 2][1][2] += 1e-3;
+    try {
+      check_walls(campaign, cracked, "wall.stl");
+      FAIL() << "accepted";
+    } catch (const Failure& failure) {
+      EXPECT_EQ(failure.code(), ExitCode::wrong_input);
+      EXPECT_NE(std::string(failure.what()).find("the wall has a hole at"), std::string::npos) << failure.what();
+    }
+  }
+}
+
+TEST(WallTriangles, AFileThatIsNoWallIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "wall.stl";
+  for (const char* text : {"", "solid wall\nendsolid wall\n", "vertex 0 0 0\nvertex 1 0 0\n",
+                           "vertex 0 0 0\nvertex 1 0 nan\nvertex 0 1 0\n", "vertex 0 0 0\nvertex 1 0 0\nvertex 0"}) {
+    write_text_atomically(file, text);
+    EXPECT_THROW(read_stl(file), Failure) << text;
+  }
 }
 
 TEST(WallTriangles, HopperGoesOnAboveTheThroat) {

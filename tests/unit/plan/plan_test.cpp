@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "physics/plan/scene_warnings.hpp"
 #include "schemas/failure.hpp"
 #include "tests/unit/plan/furnaces.hpp"
 
@@ -120,6 +123,47 @@ TEST(Plan, RefusesABlastThatChokesWithAnOpeningThatWorks) {
 
 TEST(Plan, WarnsAboveMachOneThird) {
   EXPECT_THAT(make_plan(paper_furnace(8.6, 0.35)).warnings, testing::Contains(HasSubstr("Mach")));
+}
+
+TEST(Plan, WarnsOfADragLawFarOutsideItsRange) {
+  const auto warned = [](DragLaw law, double blast) {
+    Campaign campaign = paper_furnace(blast);
+    campaign.drag = law;
+    const auto warnings = scene_warnings(campaign);
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& warning) { return warning.starts_with("The drag law "); });
+  };
+  EXPECT_FALSE(warned(DragLaw::beetstra, 3));  // Re = 1170
+  EXPECT_TRUE(warned(DragLaw::beetstra, 8.6));
+  EXPECT_TRUE(warned(DragLaw::koch_hill, 3));
+  EXPECT_FALSE(warned(DragLaw::gidaspow, 8.6));
+  EXPECT_TRUE(warned(DragLaw::gidaspow, 86));
+  EXPECT_TRUE(warned(DragLaw::emms, 3)) << "grains of 44 mm";
+  EXPECT_TRUE(warned(DragLaw::wen_yu, 3)) << "a packed bed";
+  EXPECT_FALSE(warned(DragLaw::di_felice, 8.6));
+}
+
+TEST(Plan, WarnsOfASpeciesThatTheBedWillNotHold) {
+  Campaign campaign = paper_furnace();
+  EXPECT_THAT(scene_warnings(campaign), testing::Not(testing::Contains(HasSubstr("in the bed"))));
+  campaign.charging.layers[1] = {{"coke", 1000}};
+  EXPECT_THAT(make_plan(campaign).warnings, testing::Contains(HasSubstr("No layer of charging.layers holds ore")));
+  campaign.charging.layers[1] = {{"coke", 1000}, {"ore", 1e-3}};
+  EXPECT_THAT(scene_warnings(campaign), testing::Contains(HasSubstr("less than one parcel of ore")));
+}
+
+TEST(DemTimeStep, AboveTheStableOneIsRefusedWithIt) {
+  Campaign campaign = paper_furnace();
+  campaign.dem.time_step = 0.31 * 1.906e-3;
+  try {
+    make_plan(campaign);
+    FAIL() << "accepted";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::wrong_input);
+    EXPECT_THAT(failure.what(),
+                AllOf(HasSubstr("above the stable step of 0.00057"), HasSubstr("30 % of the Rayleigh time")));
+    EXPECT_TRUE(failure.advice().contains("dem.time_step"));
+  }
 }
 
 TEST(Plan, RefusesABatchThatDoesNotFitAboveTheStockLine) {

@@ -67,6 +67,18 @@ TEST_F(MakeReport, OfARunThatHasJustBegun) {
   EXPECT_THAT(read_text(path() / "report/index.html"), HasSubstr("\"campaign\":\"tiny\""));
 }
 
+TEST(MakeReportOf, ASceneWithAnEmptySpeciesTellsIt) {
+  const TemporaryFolder folder;
+  std::string text = read_text(CUPOLA_SOURCE_DIR "/cases/tiny/campaign.yaml");
+  const std::string charged = ", {ore: 60 kg}";
+  ASSERT_NE(text.find(charged), std::string::npos);
+  text.erase(text.find(charged), charged.size());
+  write_text_atomically(folder.path() / "campaign.yaml", text);
+  const auto run = RunFolder::for_campaign(folder.path() / "campaign.yaml", folder.path() / "run");
+  EXPECT_THAT(make_report(folder.path() / "run").at("warnings").dump(),
+              HasSubstr("No layer of charging.layers holds ore"));
+}
+
 TEST_F(MakeReport, TellsAFailedStage) {
   write_failure(begin_stage(TaskKind::dem), Failure(ExitCode::diverged, "parcel 7 left the domain")
                                                 .at("step", "5205")
