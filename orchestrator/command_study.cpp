@@ -20,7 +20,8 @@ using State = StudyTask::State;
 using nlohmann::json;
 
 fs::path make_study_folder(const Study& study, const std::optional<fs::path>& wanted) {
-  const fs::path folder = fs::absolute(wanted.value_or(fs::path("studies") / study.name)).lexically_normal();
+  const std::string own_name = study.name + (study.size == StudySize::reduced ? "-reduced" : "");
+  const fs::path folder = fs::absolute(wanted.value_or(fs::path("studies") / own_name)).lexically_normal();
   std::error_code error;
   fs::create_directories(folder / "stages", error);
   if (error)
@@ -105,7 +106,7 @@ void warn_of_cores(const Study& study) {
 }  // namespace
 
 ExitCode study(const fs::path& study_file, const StudyOptions& options) {
-  Study study = load_study(study_file);
+  Study study = load_study(study_file, options.reduced ? StudySize::reduced : StudySize::full);
   if (options.jobs) study.jobs = *options.jobs;
   if (options.only_check) {
     fmt::print("{}: {} settings x {} seeds, error against {}\n", study.name, study.settings.size(), study.seeds,

@@ -53,6 +53,7 @@ struct StudyOptions {
   std::optional<std::filesystem::path> folder;  ///< none: `studies/<study>` in the present folder
   std::optional<int> jobs;                      ///< instead of the file's
   std::optional<std::size_t> task;              ///< only this one: what a member of an array of jobs does
+  bool reduced = false;                         ///< with the file's section `reduced`
   bool only_check = false;                      ///< says what would be run
   bool only_gather = false;                     ///< runs nothing, makes the results anew
   bool retry_failed = false;                    ///< what failed is tried again

@@ -156,6 +156,7 @@ int main(int argc, char** argv) {
   study->add_option("--study-dir", study_options.folder, "Its folder; without it studies/<study>");
   study->add_option("--jobs", study_options.jobs, "Settings at once, instead of the file's")
       ->check(CLI::Range(1, 1000));
+  study->add_flag("--reduced", study_options.reduced, "At the size of the file's section `reduced`");
   study->add_flag("--check", study_options.only_check, "List the settings and run nothing");
   study->add_flag("--gather", study_options.only_gather, "Make the results anew from what is there; run nothing");
   study->add_flag("--retry-failed", study_options.retry_failed, "Try again what has failed");

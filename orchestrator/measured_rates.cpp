@@ -23,12 +23,13 @@ struct Part {
   const char* name;
   double Rates::*rate;
 };
-constexpr std::array<Part, 7> parts = {{{"contacts", &Rates::contacts},
+constexpr std::array<Part, 8> parts = {{{"contacts", &Rates::contacts},
                                         {"dem_gas", &Rates::dem_gas},
                                         {"motion", &Rates::motion},
                                         {"exchange", &Rates::exchange},
                                         {"conduction", &Rates::conduction},
                                         {"gas_flow", &Rates::gas_flow},
+                                        {"gas_flow_navier_stokes", &Rates::gas_flow_navier_stokes},
                                         {"gas_energy", &Rates::gas_energy}}};
 
 json read_or_empty(const fs::path& file) {
@@ -80,7 +81,8 @@ json work_of_tracer(const json& stage) {
            work(cells * steps, wall_of(stage, {"exchange", "exchange on cells", "projection", "balances"}), ranks)},
           {"conduction", work(cells * steps, wall_of(stage, {"conduction"}), ranks)},
           // In flow solutions a step, since the estimate does not know how many are skipped.
-          {"gas_flow", work(cells * steps, wall_of(stage, {"flow"}), ranks)},
+          {stage.value("gas_model", "") == "navier-stokes" ? "gas_flow_navier_stokes" : "gas_flow",
+           work(cells * steps, wall_of(stage, {"flow"}), ranks)},
           {"gas_energy", work(cells * stage.value("energy_solves", 0.), wall_of(stage, {"gas energy"}), ranks)}};
 }
 

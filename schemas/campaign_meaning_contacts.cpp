@@ -17,12 +17,11 @@ void check_contacts(Context& context) {
     context.add("contacts.stiffness_of", "only linear springs have a stiffness (contacts.model: linear-spring)");
   if (contacts.rolling_model != Contacts::Rolling::epsd && context.has("contacts.rolling_damping"))
     context.add("contacts.rolling_damping", "only the model epsd damps rolling (contacts.rolling_model: epsd)");
-  constexpr double least_modulus = 5e6;  // LIGGGHTS accepts no softer grain
+  constexpr double least_modulus = 1e5;  // a bed of a metre would press softer parcels flat
   for (const auto& [key, modulus] : {std::pair{"contacts.youngs_modulus", contacts.youngs_modulus},
                                      std::pair{"contacts.wall_youngs_modulus", contacts.wall_youngs_modulus}}) {
     if (hertz && modulus < least_modulus) {
-      context.add(key,
-                  "{} Pa is softer than 5 MPa: parcels would sink into each other, and the engine does not take it",
+      context.add(key, "{} Pa is softer than 0.1 MPa: parcels would sink into each other under their own weight",
                   modulus);
     }
   }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <set>
 
@@ -17,6 +18,10 @@ using Json = nlohmann::ordered_json;
 using Schema = nlohmann::json;
 
 constexpr std::size_t longest_name = 100;  // std::regex recurses once a letter
+
+/// Beyond these a quantity is a slip of the pen, and arithmetic with it leaves the range of floating-point numbers.
+constexpr double least_magnitude = 1e-60, greatest_magnitude = 1e30;
+constexpr double hottest = 1e5;  // K
 
 /// Schema of a member of an object; none for an unknown key.
 const Schema* member_schema(const Schema& schema, const std::string& key) {
@@ -127,9 +132,19 @@ class Check {
       for (std::size_t i = 0; i < value.size(); ++i) {
         if (const auto* inner = item_schema(schema, i)) convert(value[i], *inner, path_of(path, i));
       }
-    } else if (value.is_string() && schema.contains("x-unit")) {
-      convert_quantity(value, schema, path);
+    } else if (schema.contains("x-unit")) {
+      if (value.is_string()) convert_quantity(value, schema, path);
+      if (value.is_number()) check_magnitude(value.get<double>(), schema["x-unit"], path);
     }
+  }
+
+  void check_magnitude(double number, const std::string& unit, const std::string& path) {
+    const double greatest = unit == "K" ? hottest : greatest_magnitude;
+    const double magnitude = std::abs(number);
+    if (number == 0 || (magnitude >= least_magnitude && magnitude <= greatest)) return;
+    add(path, fmt::format("{} {} cannot be meant: quantities are 0, or from {:.0e} to {:.0e} {} in magnitude", number,
+                          unit, least_magnitude, greatest, unit));
+    failed_.insert(path);
   }
 
   void convert_quantity(Json& value, const Schema& schema, const std::string& path) {

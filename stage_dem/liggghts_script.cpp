@@ -114,6 +114,8 @@ std::vector<std::string> liggghts_opening(const Campaign& campaign, int ranks) {
   // LIGGGHTS asks for this word above 1 GPa, so that nobody chooses the short step of real stiffness unawares.
   if (std::max(campaign.contacts.youngs_modulus, campaign.contacts.wall_youngs_modulus) > 1e9)
     script.push_back("hard_particles yes");
+  if (std::min(campaign.contacts.youngs_modulus, campaign.contacts.wall_youngs_modulus) < 5e6)
+    script.push_back("soft_particles yes");  // the same below 5 MPa; the limit of the overlap says what is too soft
   return script;
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "physics/gas/inlets_json.hpp"
+#include "schemas/campaign_words.hpp"
 #include "schemas/field_file.hpp"
 #include "stage_tracer/bed_composition.hpp"
 #include "stage_tracer/ore_temperature.hpp"
@@ -143,6 +144,7 @@ void write_gas(FieldFileWriter& file, const Campaign& campaign, const GasModel& 
   file.cell_data("gas_pressure", gas.flow().pressure());
   file.cell_data("gas_mass_flux", flat(gas.flow().mass_flux()), 3);
   file.cell_data("gas_inertia_over_drag", gas.flow().inertia_over_drag());
+  summary["gas_model"] = std::string(words::word_of(words::tracer_gas, campaign.tracer.gas));
   summary["flow_solves"] = gas.flow_solves();
   summary["flow_skips"] = gas.flow_skips();
   summary["energy_solves"] = gas.energy_solves();

@@ -18,8 +18,12 @@ set_tests_properties(study.run PROPERTIES LABELS workflow TIMEOUT 900 PROCESSORS
 add_test(NAME study.browser COMMAND "${NODE_PROGRAM}" study.mjs "${study_folder}/study" "${browser_build}/pictures"
          WORKING_DIRECTORY "${browser_build}")
 set_tests_properties(study.browser PROPERTIES LABELS workflow TIMEOUT 300 FIXTURES_REQUIRED study_run)
-add_test(NAME study.figures COMMAND "${NODE_PROGRAM}" "${CMAKE_CURRENT_LIST_DIR}/study/compare_figures.mjs" "${study_folder}/study/study.json"
-                                    "${CMAKE_CURRENT_LIST_DIR}/study/figures.json")
-set_tests_properties(study.figures PROPERTIES LABELS workflow TIMEOUT 60 FIXTURES_REQUIRED study_run)
+# Each committed study at its reduced size: are its figures stale?
+file(GLOB committed_studies CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/cases/studies/*.yaml")
+foreach(file ${committed_studies})
+  get_filename_component(name "${file}" NAME_WE)
+  add_test(NAME study.figures.${name} COMMAND "${CMAKE_CURRENT_LIST_DIR}/study/reduced_study.sh" $<TARGET_FILE:cupola> "${file}" "${study_folder}/reduced/${name}")
+  set_tests_properties(study.figures.${name} PROPERTIES LABELS workflow TIMEOUT 600)
+endforeach()
 add_test(NAME study.committed COMMAND "${CMAKE_CURRENT_LIST_DIR}/study/committed_studies.sh" $<TARGET_FILE:cupola> "${CMAKE_SOURCE_DIR}")
 set_tests_properties(study.committed PROPERTIES LABELS workflow TIMEOUT 120)

@@ -52,7 +52,8 @@ std::vector<std::string> submit_study(const Study& study, const StudyWork& work,
                   fmt::format("{}: --submit needs `launch: {{slurm: …}}` in the scene, or in the study's `change`",
                               study.file.string()));
   const std::string cupola = (StageLauncher::own_folder() / "cupola").string();
-  const std::vector<std::string> begin = {cupola, "study", study.file.string(), "--study-dir", folder.string()};
+  std::vector<std::string> begin = {cupola, "study", study.file.string(), "--study-dir", folder.string()};
+  if (study.size == StudySize::reduced) begin.emplace_back("--reduced");
   const fs::path log = folder / "slurm.log";
   std::vector<std::string> jobs;
   const auto layers = array_layers(work.tasks);

@@ -17,6 +17,10 @@ enum class StudyStage { dem, tracer, episode, campaign };
 /// Its words in a study file, in the same order.
 inline constexpr std::array<const char*, 4> study_stage_words = {"dem", "tracer", "episode", "campaign"};
 
+/// A study as it stands, or with its section `reduced` in place of what that names: quick enough to see whether its
+/// results still hold.
+enum class StudySize { full, reduced };
+
 /// Campaign keys that change together, and their values.
 struct StudyAxis {
   std::vector<std::string> keys;
@@ -51,6 +55,7 @@ struct Study {
   std::filesystem::path file, scene_file;
   Campaign scene;                     ///< with `change`
   nlohmann::ordered_json scene_root;  ///< the same as a campaign file
+  StudySize size = StudySize::full;
   StudyStage stage = StudyStage::tracer;
   bool begins_with_packing = false;
   std::vector<StudyAxis> axes;
@@ -69,10 +74,10 @@ struct ReadStudy {
 };
 
 /// @throws Failure input_output where the file cannot be read
-ReadStudy read_study(const std::filesystem::path& file);
+ReadStudy read_study(const std::filesystem::path& file, StudySize size = StudySize::full);
 
 /// Like read_study, all errors joined into one Failure (wrong_input).
-Study load_study(const std::filesystem::path& file);
+Study load_study(const std::filesystem::path& file, StudySize size = StudySize::full);
 
 /// `tracer.time_step = 5 s, random_seed = 2`: keys and their values for people.
 std::string settings_text(const nlohmann::ordered_json& values);

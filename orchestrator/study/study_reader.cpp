@@ -50,6 +50,28 @@ void read_change(const Json& root, StudyScene& scene, Study& study, StudyErrors&
   study.scene_root = scene.changed;
 }
 
+/// The document with its section `reduced` in place of what that names; `change` goes key by key.
+void reduce(YamlDocument& document) {
+  const Json reduced = document.root.value("reduced", Json::object());
+  if (reduced.empty()) {
+    document.errors.push_back(document.error_at("", "has no section `reduced`, which --reduced asks for"));
+    return;
+  }
+  for (const auto& [word, value] : reduced.items()) {
+    if (word == "change" && document.root.contains(word))
+      document.root[word].update(value);
+    else
+      document.root[word] = value;
+    // What is wrong with it is said where it stands.
+    const std::string from = path_of("reduced", word);
+    for (auto* places : {&document.keys, &document.values}) {
+      const std::map<std::string, Place> before = *places;
+      for (const auto& [path, place] : before)
+        if (path.starts_with(from)) (*places)[path.substr(std::string("reduced.").size())] = place;
+    }
+  }
+}
+
 /// What a plan refuses is refused before anything runs, too.
 void check_plans(Study& study, StudyErrors& errors) {
   for (const StudySetting& setting : study.settings)
@@ -57,11 +79,13 @@ void check_plans(Study& study, StudyErrors& errors) {
       errors.at("vary", fmt::format("{}: {}", setting.label(), refusal));
 }
 
-Study read_document(YamlDocument& document, const fs::path& file, std::vector<CampaignError>& of_scene) {
+Study read_document(YamlDocument& document, const fs::path& file, StudySize size,
+                    std::vector<CampaignError>& of_scene) {
   StudyErrors errors(document);
   const Json& root = document.root;
   Study study;
   study.file = fs::absolute(file);
+  study.size = size;
   study.name = root["study"].get<std::string>();
   study.about = root.value("about", "");
   study.scene_file = (study.file.parent_path() / root["scene"].get<std::string>()).lexically_normal();
@@ -115,7 +139,7 @@ std::optional<CampaignKey> known_key(const std::string& path, const Json& scene,
   }
 }
 
-ReadStudy read_study(const fs::path& file) {
+ReadStudy read_study(const fs::path& file, StudySize size) {
   if (!fs::is_regular_file(file))
     throw Failure(ExitCode::input_output, fmt::format("{}: there is no such study file", file.string()))
         .at("file", file.string());
@@ -127,16 +151,17 @@ ReadStudy read_study(const fs::path& file) {
   } else if (document.errors.empty()) {
     document.errors.push_back(document.error_at("", "expected a section of keys, beginning with `study: name`"));
   }
+  if (size == StudySize::reduced && document.errors.empty()) reduce(document);
   std::vector<CampaignError> of_scene;
-  if (document.errors.empty()) read.study = read_document(document, file, of_scene);
+  if (document.errors.empty()) read.study = read_document(document, file, size, of_scene);
   read.errors = std::move(document.errors);
   read.errors.insert(read.errors.end(), of_scene.begin(), of_scene.end());
   put_in_order(read.errors);
   return read;
 }
 
-Study load_study(const fs::path& file) {
-  ReadStudy read = read_study(file);
+Study load_study(const fs::path& file, StudySize size) {
+  ReadStudy read = read_study(file, size);
   if (!read.ok()) throw Failure(ExitCode::wrong_input, to_text(read.errors)).at("file", file.string());
   return std::move(read.study);
 }

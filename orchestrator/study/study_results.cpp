@@ -103,6 +103,7 @@ class Results {
             {"kind", "study"},
             {"study", study_.name},
             {"about", study_.about},
+            {"size", study_.size == StudySize::reduced ? "reduced" : "full"},
             {"scene", study_.scene.name},
             {"stage", study_stage_words.at(static_cast<std::size_t>(study_.stage))},
             {"begin", study_.begins_with_packing ? "packing" : "empty"},

