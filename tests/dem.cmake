@@ -49,6 +49,7 @@ dem_proof(11_coverage dem_proofs StandardErrors.* 1)
 add_executable(dem_gas_proofs verification/dem/proof_05_terminal_velocity.cpp
                               verification/dem/proof_06_ergun.cpp
                               verification/dem/proof_07_fluidisation.cpp
+                              verification/dem/proof_08_riser.cpp
                               verification/dem/proof_09_gas_momentum.cpp
                               verification/dem/gas_scene.cpp
                               verification/dem/proof_scene.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
@@ -60,8 +61,11 @@ dem_proof(06_quasi_steady dem_gas_proofs *ErgunBed*/0 1)
 dem_proof(06_transient dem_gas_proofs *ErgunBed*/1 1)
 dem_proof(06_frozen dem_gas_proofs FrozenGas.* 1)
 dem_proof(07_fluidisation dem_gas_proofs Fluidisation.OfParcels* 1)
+dem_proof(08_riser dem_gas_proofs Riser.* 1)
 dem_proof(09_gas_1 dem_gas_proofs GasMomentum.* 1)
 dem_proof(09_gas_2 dem_gas_proofs GasMomentum.Given* 2)
+cupola_mpi_test(dem_proof_07_in_full LABEL long RANKS 1 PROGRAM dem_gas_proofs ARGUMENTS --gtest_filter=FluidisationInFull.*)
+set_tests_properties(dem_proof_07_in_full PROPERTIES TIMEOUT 3600)
 
 # The program on the tiny slot, some seconds of it.
 cupola_test(dem_proof_10 LABEL long SOURCES verification/dem/proof_10_ranks_test.cpp LIBRARIES cupola_schemas)

@@ -128,7 +128,8 @@ double minimum_fluidisation(const Column& column, const Curve& curve) {
   return (std::sqrt(linear * linear + 4 * square) - linear) / (2 * square);
 }
 
-void expect_the_curve(const Column& column, const Curve& curve, const std::string& what) {
+/// @param plateau, onset tolerances of the pressure drop and of u_mf, relative
+void expect_the_curve(const Column& column, const Curve& curve, const std::string& what, double plateau, double onset) {
   const double measured = minimum_fluidisation(column, curve);
   const double exact = ergun_speed(curve.void_fraction);
   for (std::size_t i = 0; i < column.speeds.size(); ++i)
@@ -137,15 +138,27 @@ void expect_the_curve(const Column& column, const Curve& curve, const std::strin
              curve.parcels, curve.void_fraction, measured, exact, curve.wall_seconds);
   for (std::size_t i = 0; i < column.speeds.size(); ++i) {
     if (column.speeds[i] < 1.2 * exact) continue;
-    EXPECT_NEAR(curve.drop[i], 1, 0.05) << what << ", " << column.speeds[i];
+    EXPECT_NEAR(curve.drop[i], 1, plateau) << what << ", " << column.speeds[i];
   }
   EXPECT_LT(curve.drop.back(), 0.7) << what;
-  EXPECT_NEAR(measured / exact, 1, 0.15) << what;
+  EXPECT_NEAR(measured / exact, 1, onset) << what;
 }
 
 TEST(Fluidisation, OfParcelsHasThePlateauOfTheWeightAndErgunsSpeed) {
   const Column small{0.024, 0.03, 0.15, 0.05, 1e3, 0.15, 0.3, {1.5, 0.8, 0.6}};
-  expect_the_curve(small, fluidise(small, 1.5), "representative particles");
+  // So small a column is short of the plateau (bubbles as wide as it, between which some of the bed rests on the
+  // floor), and its walls take a larger share in u_mf than the one below.
+  expect_the_curve(small, fluidise(small, 1.5), "representative particles", 0.04, 0.12);
+}
+
+/// The source's stiffness and both sizes; minutes long.
+TEST(FluidisationInFull, GrainsAndRepresentativeParticlesHaveTheSameCurve) {
+  const Column column{0.03, 0.03, 0.24, 0.08, 1e4, 0.3, 0.6, {1.6, 1.3, 0.8, 0.6}};
+  const Curve grains = fluidise(column, 1), parcels = fluidise(column, 1.5);
+  expect_the_curve(column, grains, "grains", 0.02, 0.1);
+  expect_the_curve(column, parcels, "representative particles", 0.02, 0.1);
+  fmt::print("grains take {:.2f} times as long; published: 3.7 and 4.22\n", grains.wall_seconds / parcels.wall_seconds);
+  EXPECT_GT(grains.wall_seconds, parcels.wall_seconds);
 }
 
 }  // namespace
