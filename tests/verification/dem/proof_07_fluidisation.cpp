@@ -153,7 +153,7 @@ TEST(Fluidisation, OfParcelsHasThePlateauOfTheWeightAndErgunsSpeed) {
 
 /// The source's stiffness and both sizes; minutes long.
 TEST(FluidisationInFull, GrainsAndRepresentativeParticlesHaveTheSameCurve) {
-  const Column column{0.03, 0.03, 0.24, 0.08, 1e4, 0.3, 0.6, {1.6, 1.3, 0.8, 0.6}};
+  const Column column{0.03, 0.024, 0.36, 0.14, 1e4, 0.3, 0.6, {1.4, 0.8, 0.6}};
   const Curve grains = fluidise(column, 1), parcels = fluidise(column, 1.5);
   expect_the_curve(column, grains, "grains", 0.02, 0.1);
   expect_the_curve(column, parcels, "representative particles", 0.02, 0.1);
