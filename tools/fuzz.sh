@@ -9,6 +9,7 @@ seconds=$2
 here=$(cd "$(dirname "$0")/.." && pwd)
 mkdir -p "$build/fuzz"
 failed=0
+export LSAN_OPTIONS="suppressions=$here/tests/fuzz/leaks_of_libraries.txt:print_suppressions=0"
 seed=${FUZZ_SEED:-$((RANDOM * 32768 + RANDOM + 1))}
 echo "seed $seed (FUZZ_SEED=$seed repeats it)"
 for name in campaign fields; do
