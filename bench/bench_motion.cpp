@@ -53,9 +53,7 @@ struct Cost {
 class Bench {
  public:
   explicit Bench(double refinement)
-      : structured_(slot(refinement)),
-        field_(mesh(), fluxes(mesh()), std::vector<double>(mesh().cells(), 0.56)),
-        rate_(mesh().cells(), 0.0) {}
+      : structured_(slot(refinement)), field_(mesh(), fluxes(mesh()), std::vector<double>(mesh().cells(), 0.56)) {}
 
   [[nodiscard]] const BedMesh& mesh() const { return structured_.mesh; }
 
@@ -73,11 +71,12 @@ class Bench {
     auto counted = points;
     const auto count = [](void* counter, std::int64_t, double) { ++*static_cast<std::int64_t*>(counter); };
     for (PathField::Point& point : counted) field_.advance(point, seconds, +count, &stays);
-    double integral = 0;
+    std::vector<PathField::Stay> kept;
     const auto repeats = std::max<std::size_t>(1, 400000 / tracers);
     const std::clock_t begin = std::clock();  // of this process: other work on the machine does not count
     for (std::size_t k = 0; k < repeats; ++k) {
-      for (PathField::Point& point : points) field_.advance(point, seconds, rate_, integral);
+      kept.clear();
+      for (PathField::Point& point : points) field_.advance(point, seconds, kept);
     }
     const double nanoseconds =
         1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / static_cast<double>(repeats);
@@ -88,7 +87,6 @@ class Bench {
  private:
   StructuredMesh structured_;
   PathField field_;
-  std::vector<double> rate_;
 };
 
 /// Slope of log cost over log size from the smallest to the largest.

@@ -23,10 +23,6 @@ struct CellContents {
 /// Diameter of the parcels whose volume is spread: mean by the recipe's volume, or of all species, m.
 double kernel_diameter(const Campaign& campaign, const Charge& charge);
 
-/// Sums the tracers in the cells they are in. @param heat whether tracers carry temperatures
-CellContents sum_tracers(const Tracers& tracers, std::size_t species, std::size_t cells, bool heat,
-                         const SumOverRanks& sum);
-
 /// The contents spread with the kernel of a parcel: volumes and heat are conserved.
 CellContents spread(const CellContents& contents, const CellSpreading& kernel);
 

@@ -11,7 +11,9 @@
 namespace cupola {
 namespace {
 
-constexpr double tolerance = 1e-6;  // K
+// K; the fluxes of the solution are applied, so that heat is kept whatever it is.
+constexpr double step_tolerance = 1e-4;
+constexpr double steady_tolerance = 1e-6;
 
 /// Area over the distance of the cell centres along the face normal.
 double area_over_distance(const BedMesh& mesh, std::size_t face, std::int64_t other_face, std::int64_t neighbour) {
@@ -199,7 +201,7 @@ Conduction::Result Conduction::advance(const CellContents& contents, const BySpe
   }
   const std::vector<Link> network = links(contents, bed_volume);
   Result result;
-  result.iterations = solve_network(network, diagonal, source, temperature, tolerance);
+  result.iterations = solve_network(network, diagonal, source, temperature, step_tolerance);
   const std::vector<double> inflow = network_inflow(network, temperature);
   result.change.assign(species, std::vector<double>(cells, 0.0));
   for (std::size_t i = 0; i < inflow.size(); ++i) {
@@ -244,7 +246,7 @@ BySpecies Conduction::steady(const CellContents& contents, const BySpecies& bed_
       source[node] += link.conductance * temperature[held];
     }
   }
-  solve_network(between_free, diagonal, source, temperature, tolerance);
+  solve_network(between_free, diagonal, source, temperature, steady_tolerance);
   BySpecies result(species, std::vector<double>(cells));
   for (std::size_t i = 0; i < temperature.size(); ++i) result[i / cells][i % cells] = temperature[i];
   return result;

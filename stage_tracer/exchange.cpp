@@ -21,7 +21,7 @@ Exchange::Exchange(const Campaign& campaign, const CellSpreading& kernel)
 
 double Exchange::mean_decay(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
 
-void Exchange::set_rates(const GasFields& gas, const CellContents& contents, double step) {
+void Exchange::set_rates(const GasFields& gas, const CellContents& contents) {
   const Heat& heat = *campaign_.heat;
   const std::size_t cells = gas.mass_flux.size();
   coefficient_.assign(campaign_.species.size(), std::vector<double>(cells));
@@ -48,41 +48,43 @@ void Exchange::set_rates(const GasFields& gas, const CellContents& contents, dou
   }
   felt_ = coefficient_;
   kernel_.gather(pointers(felt_));
-  const CellsOfRank& mine = kernel_.share();
-  decay_ = felt_;
-  mean_decay_ = felt_;
+  rate_ = felt_;
   for (std::size_t s = 0; s < campaign_.species.size(); ++s) {
     const Species& species = campaign_.species[s];
     const std::vector<double> capacity = volumetric_heat_capacity(species, contents.temperature[s]);
-    for (std::size_t c = mine.begin; c < mine.end; ++c) {
-      const double x = 6 / (species.diameter * capacity[c]) * felt_[s][c] * step;
-      decay_[s][c] = std::exp(-x);
-      mean_decay_[s][c] = mean_decay(x);
-    }
+    for (std::size_t c = 0; c < cells; ++c) rate_[s][c] *= 6 / (species.diameter * capacity[c]);
   }
-  mine.complete(pointers(decay_));
-  mine.complete(pointers(mean_decay_));
 }
 
-SolidsExchange Exchange::solids(const CellContents& contents) const {
-  const std::size_t cells = coefficient_.front().size();
-  const std::size_t species = coefficient_.size();
-  SolidsExchange result{std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
-  BySpecies area(species, std::vector<double>(cells));
-  BySpecies area_temperature = area;
-  for (std::size_t s = 0; s < species; ++s) {
-    for (std::size_t c = 0; c < cells; ++c) {
-      area[s][c] = mean_decay_[s][c] * 6 * contents.volume[s][c] / campaign_.species[s].diameter;
-      area_temperature[s][c] = area[s][c] * contents.temperature[s][c];
+SolidsExchange Exchange::solids(const CellContents& contents, double step) const {
+  BySpecies conductance = felt_;
+  BySpecies conductance_temperature = felt_;
+  for (std::size_t s = 0; s < felt_.size(); ++s) {
+    for (std::size_t c = 0; c < felt_[s].size(); ++c) {
+      conductance[s][c] *= mean_decay(rate_[s][c] * step) * 6 * contents.volume[s][c] / campaign_.species[s].diameter;
+      conductance_temperature[s][c] = conductance[s][c] * contents.temperature[s][c];
     }
   }
-  std::vector<std::vector<double>*> sums = pointers(area);
-  for (auto& values : area_temperature) sums.push_back(&values);
-  kernel_.apply(sums);
-  for (std::size_t s = 0; s < species; ++s) {
+  return seen_by_gas(std::move(conductance), std::move(conductance_temperature));
+}
+
+SolidsExchange Exchange::seen_by_gas(BySpecies conductance, BySpecies conductance_temperature) const {
+  const std::size_t cells = felt_.front().size();
+  SolidsExchange result{std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
+  for (std::size_t s = 0; s < felt_.size(); ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      result.conductance[c] += coefficient_[s][c] * area[s][c];
-      result.conductance_temperature[c] += coefficient_[s][c] * area_temperature[s][c];
+      const double inverse = felt_[s][c] > 0 ? 1 / felt_[s][c] : 0;
+      conductance[s][c] *= inverse;
+      conductance_temperature[s][c] *= inverse;
+    }
+  }
+  std::vector<std::vector<double>*> sums = pointers(conductance);
+  for (auto& values : conductance_temperature) sums.push_back(&values);
+  kernel_.apply(sums);
+  for (std::size_t s = 0; s < felt_.size(); ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      result.conductance[c] += coefficient_[s][c] * conductance[s][c];
+      result.conductance_temperature[c] += coefficient_[s][c] * conductance_temperature[s][c];
     }
   }
   return result;

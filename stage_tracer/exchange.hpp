@@ -8,13 +8,12 @@
 
 namespace cupola {
 
-/// Convective heat between gas and tracers over one step, the same on both sides.  In cell j all tracers of a species
-/// share the rate
-///   k = 6 / (d rho cp) sum_c W_cj h_c,
-/// with the kernel W of CellSpreading, and feel the gas temperature T* = sum_c W_cj h_c T_c / sum_c W_cj h_c.  With T*
-/// constant over the step a tracer goes exactly to T* + (T - T*) exp(-k dt); its mean conductance over the step is then
-///   h A (1 - exp(-k dt))/(k dt),
-/// which is what the gas energy is solved with: the gas gives exactly what the tracers take, for any step.
+/// Convective heat between gas and tracers, the same on both sides.  In cell j all tracers of a species share the rate
+///   k_j = 6 / (d rho cp) sum_c W_cj h_c,
+/// with the kernel W of CellSpreading, and feel the gas temperature T*_j = sum_c W_cj h_c T_c / sum_c W_cj h_c.  With
+/// T* constant over the step a tracer goes exactly to T* + (T - T*) exp(-k dt) where it stays in one cell; its mean
+/// conductance over the step is then h A (1 - exp(-k dt))/(k dt), which is what the gas energy is solved with: the gas
+/// gives exactly what the tracers take, for any step.  HeatStep does the same along paths through several cells.
 ///
 /// h is the campaign's convection law, with the gas's properties at its own temperature, and the intragrain resistance
 /// where the campaign asks for it.  cp is the apparent heat capacity (latent heat included) at the mean temperature of
@@ -30,10 +29,15 @@ class Exchange {
     const std::vector<double>& void_fraction;  ///< 1
   };
   /// Rates of this step. @param contents not spread
-  void set_rates(const GasFields& gas, const CellContents& contents, double step);
+  void set_rates(const GasFields& gas, const CellContents& contents);
 
-  /// What the gas energy equation needs of the solids.
-  [[nodiscard]] SolidsExchange solids(const CellContents& contents) const;
+  /// What the gas energy equation needs of the solids: their mean conductance over a step, s, in which they stay in
+  /// their cells.
+  [[nodiscard]] SolidsExchange solids(const CellContents& contents, double step) const;
+
+  /// The same from the conductances of the tracers in each cell, W/K, and these times the tracers' temperatures, W
+  /// ([species][cell]): what a tracer in cell j gives comes from cells c in the proportions W_cj h_c.
+  [[nodiscard]] SolidsExchange seen_by_gas(BySpecies conductance, BySpecies conductance_temperature) const;
 
   /// T* of each species in each cell, K.
   [[nodiscard]] BySpecies felt_temperature(const std::vector<double>& gas_temperature) const;
@@ -44,8 +48,8 @@ class Exchange {
   /// h as a tracer in each cell feels it, sum_c W_cj h_c, W/m2/K, [species][cell].
   [[nodiscard]] const BySpecies& felt_coefficient() const { return felt_; }
 
-  /// exp(-k dt), [species][cell].
-  [[nodiscard]] const BySpecies& decay() const { return decay_; }
+  /// k, 1/s, [species][cell].
+  [[nodiscard]] const BySpecies& rate() const { return rate_; }
 
   /// Largest Biot number of each species where it is, without the intragrain resistance (closures/biot.hpp).
   [[nodiscard]] const std::vector<double>& largest_biot() const { return largest_biot_; }
@@ -59,8 +63,7 @@ class Exchange {
   GasState gas_;
   BySpecies coefficient_;  ///< h, W/m2/K
   BySpecies felt_;         ///< h as a tracer in the cell feels it, W/m2/K
-  BySpecies decay_;
-  BySpecies mean_decay_;
+  BySpecies rate_;         ///< k, 1/s
   std::vector<double> largest_biot_;
 };
 

@@ -98,26 +98,43 @@ void GasModel::solve_flow(const BedState& bed, double tolerance, int most_iterat
   ++flow_solves_;
 }
 
+GasModel::State GasModel::state() const {
+  return {flow_->warm_start(), flow_->face_pressure(), flow_->inertia_over_drag(),
+          temperature_,        last_resistance_,       flow_solves_,
+          flow_skips_,         energy_solves_};
+}
+
+void GasModel::restore(State state) {
+  flow_->restore(std::move(state.start), std::move(state.face_pressure), std::move(state.inertia_over_drag));
+  temperature_ = std::move(state.temperature);
+  if (energy_) energy_->restore(temperature_);
+  last_resistance_ = std::move(state.last_resistance);
+  flow_solves_ = state.flow_solves;
+  flow_skips_ = state.flow_skips;
+  energy_solves_ = state.energy_solves;
+}
+
 void GasModel::save(HdfWriter& file) const {
-  file.write("Gas/squared_pressure", flow_->warm_start().squared_pressure);
-  file.write("Gas/face_mass_flux", flow_->warm_start().face_mass_flux);
-  file.write("Gas/face_pressure", flow_->face_pressure());
-  file.write("Gas/inertia_over_drag", flow_->inertia_over_drag());
-  file.write("Gas/temperature", temperature_);
-  file.write("Gas/last_resistance", last_resistance_);
-  file.write("Gas/counts", std::vector<std::int64_t>{flow_solves_, flow_skips_, energy_solves_});
+  const State now = state();
+  file.write("Gas/squared_pressure", now.start.squared_pressure);
+  file.write("Gas/face_mass_flux", now.start.face_mass_flux);
+  file.write("Gas/face_pressure", now.face_pressure);
+  file.write("Gas/inertia_over_drag", now.inertia_over_drag);
+  file.write("Gas/temperature", now.temperature);
+  file.write("Gas/last_resistance", now.last_resistance);
+  file.write("Gas/counts", std::vector<std::int64_t>{now.flow_solves, now.flow_skips, now.energy_solves});
 }
 
 void GasModel::restore(const HdfReader& file) {
-  flow_->restore({file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")},
-                 file.doubles("Gas/face_pressure"), file.doubles("Gas/inertia_over_drag"));
-  temperature_ = file.doubles("Gas/temperature");
-  if (energy_) energy_->restore(temperature_);
-  last_resistance_ = file.doubles("Gas/last_resistance");
   const std::vector<std::int64_t> counts = file.integers("Gas/counts", 3);
-  flow_solves_ = counts[0];
-  flow_skips_ = counts[1];
-  energy_solves_ = counts[2];
+  restore({{file.doubles("Gas/squared_pressure"), file.doubles("Gas/face_mass_flux")},
+           file.doubles("Gas/face_pressure"),
+           file.doubles("Gas/inertia_over_drag"),
+           file.doubles("Gas/temperature"),
+           file.doubles("Gas/last_resistance"),
+           static_cast<long>(counts[0]),
+           static_cast<long>(counts[1]),
+           static_cast<long>(counts[2])});
 }
 
 }  // namespace cupola

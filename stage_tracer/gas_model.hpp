@@ -42,7 +42,16 @@ class GasModel {
   [[nodiscard]] long flow_skips() const { return flow_skips_; }
   [[nodiscard]] long energy_solves() const { return energy_solves_; }
 
-  /// State for a checkpoint, under `Gas/`.
+  /// All that a later solution starts from and a result needs.
+  struct State {
+    BedFlow::WarmStart start;
+    std::vector<double> face_pressure, inertia_over_drag, temperature, last_resistance;
+    long flow_solves, flow_skips, energy_solves;
+  };
+  [[nodiscard]] State state() const;
+  void restore(State state);
+
+  /// The same for a checkpoint, under `Gas/`.
   void save(HdfWriter& file) const;
   void restore(const HdfReader& file);
 

@@ -20,10 +20,54 @@ Exchange::GasFields fields_of(const GasModel& gas, const BedState& bed) {
 
 }  // namespace
 
-double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
-                         GasModel* gas, double step) {
+HeatStep::HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction,
+                   SumOverRanks sum, PartClock& clock)
+    : campaign_(campaign),
+      kernel_(kernel),
+      conduction_(conduction),
+      sum_(std::move(sum)),
+      clock_(clock),
+      exchange_(campaign, kernel) {
+  for (const Species& species : campaign.species) {
+    constant_capacity_.push_back(
+        has_constant_heat_capacity(species) ? species.density * species.heat_capacity.at(enthalpy_zero) : 0);
+  }
+}
+
+void HeatStep::take_along_paths(const Tracers& tracers, const Stays& stays, BySpecies& taken,
+                                BySpecies& taken_temperature) {
+  const std::size_t cells = taken.front().size();
+  const BySpecies& rate = exchange_.rate();
+  approach_.resize(stays.all().size());
+  std::vector<double> sums(2 * taken.size() * cells, 0.0);
+  const std::size_t half = taken.size() * cells;
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const std::size_t s = tracers.species[i];
+    const std::span<const Stays::Stay> path = stays.of(i);
+    double* const approach = approach_.data() + stays.first(i);
+    double later = 1;  // what the stays to come leave of a difference
+    for (std::size_t j = path.size(); j-- > 0;) {
+      const auto c = static_cast<std::size_t>(path[j].cell);
+      const double of_stay = -std::expm1(-rate[s][c] * path[j].seconds);
+      approach[j] = of_stay * later;
+      later *= 1 - of_stay;
+      const double volume = tracers.volume[i] * approach[j];
+      sums[s * cells + c] += volume;
+      sums[half + s * cells + c] += volume * tracers.temperature[i];
+    }
+  }
+  sum_(sums);
+  for (std::size_t s = 0; s < taken.size(); ++s) {
+    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(s * cells), cells, taken[s].begin());
+    std::copy_n(sums.begin() + static_cast<std::ptrdiff_t>(half + s * cells), cells, taken_temperature[s].begin());
+  }
+}
+
+double HeatStep::advance(Tracers& tracers, const Stays& stays, CellContents& contents, const BySpecies& bed_volume,
+                         const BedState& bed, GasModel* gas, Leaving& leaving) {
   const std::size_t species = contents.volume.size();
   const std::size_t cells = contents.volume.front().size();
+  const double step = stays.step();
   // Heat capacities as at the beginning of the step: the same for gas, neighbours and tracers.
   BySpecies capacity(species);
   BySpecies spread_capacity(species);
@@ -33,86 +77,108 @@ double HeatStep::advance(Tracers& tracers, CellContents& contents, const BySpeci
     for (std::size_t c = 0; c < cells; ++c) spread_capacity[s][c] *= contents.volume[s][c];
   }
   kernel_.apply(pointers(spread_capacity));
+  const BySpecies before = contents.temperature;
   BySpecies felt(species, std::vector<double>(cells, 0.0));
-  BySpecies decay(species, std::vector<double>(cells, 1.0));
+  approach_.assign(stays.all().size(), 0.0);
   if (gas != nullptr) {
     auto running = std::make_optional<PartClock::Running>(clock_, "exchange on cells");
-    exchange_.set_rates(fields_of(*gas, bed), contents, step);
+    exchange_.set_rates(fields_of(*gas, bed), contents);
     largest_biot_ = exchange_.largest_biot();
-    const SolidsExchange solids = exchange_.solids(contents);
+    running.emplace(clock_, "exchange");
+    BySpecies taken = felt;
+    BySpecies taken_temperature = felt;
+    take_along_paths(tracers, stays, taken, taken_temperature);
+    running.emplace(clock_, "exchange on cells");
+    BySpecies conductance = taken;
+    BySpecies conductance_temperature = taken_temperature;
+    for (std::size_t s = 0; s < species; ++s) {
+      for (std::size_t c = 0; c < cells; ++c) {
+        conductance[s][c] *= capacity[s][c] / step;
+        conductance_temperature[s][c] *= capacity[s][c] / step;
+      }
+    }
+    const SolidsExchange solids = exchange_.seen_by_gas(std::move(conductance), std::move(conductance_temperature));
     running.emplace(clock_, "gas energy");
     gas->solve_energy(bed, solids);
     running.emplace(clock_, "exchange on cells");
     felt = exchange_.felt_temperature(gas->temperature());
-    decay = exchange_.decay();
-  }
-  auto running = std::make_optional<PartClock::Running>(clock_, "conduction");
-  for (std::size_t s = 0; s < species; ++s) {
-    for (std::size_t c = 0; c < cells; ++c) {
-      if (contents.volume[s][c] > 0)
-        contents.temperature[s][c] = felt[s][c] + (contents.temperature[s][c] - felt[s][c]) * decay[s][c];
+    for (std::size_t s = 0; s < species; ++s) {
+      for (std::size_t c = 0; c < cells; ++c) {
+        if (contents.volume[s][c] > 0)
+          contents.temperature[s][c] += (taken[s][c] * felt[s][c] - taken_temperature[s][c]) / contents.volume[s][c];
+      }
     }
   }
+  auto running = std::make_optional<PartClock::Running>(clock_, "conduction");
   Conduction::Result conducted = conduction_.advance(spread(contents, kernel_), spread_capacity, bed_volume, step);
   BySpecies& shift = conducted.change;
   kernel_.gather(pointers(shift));
   for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      if (contents.volume[s][c] > 0) contents.temperature[s][c] += shift[s][c];
+      // The mean over the step.
+      if (contents.volume[s][c] > 0)
+        contents.temperature[s][c] = 0.5 * (before[s][c] + contents.temperature[s][c] + shift[s][c]);
     }
   }
   running.emplace(clock_, "exchange");
   for (std::size_t i = 0; i < tracers.size(); ++i) {
     const std::size_t s = tracers.species[i];
-    const auto c = static_cast<std::size_t>(tracers.point[i].cell);
     const Species& material = campaign_.species[s];
+    const std::span<const Stays::Stay> path = stays.of(i);
+    const double* const approach = approach_.data() + stays.first(i);
     double& temperature = tracers.temperature[i];
-    // At the capacity of the step; that of the tracer itself may differ.
-    const double rise = (felt[s][c] - temperature) * (1 - decay[s][c]) + shift[s][c];
-    if (has_constant_heat_capacity(material)) {
-      temperature += rise;
+    const double old = temperature;
+    double heat = 0;  // J/m3, at the capacities of the cells; that of the tracer itself may differ
+    for (std::size_t j = 0; j < path.size(); ++j) {
+      const auto c = static_cast<std::size_t>(path[j].cell);
+      heat += capacity[s][c] * (approach[j] * (felt[s][c] - old) + path[j].seconds / step * shift[s][c]);
+    }
+    if (constant_capacity_[s] > 0) {
+      temperature += heat / constant_capacity_[s];
     } else {
-      temperature =
-          solid_temperature(material, solid_enthalpy(material, temperature) + capacity[s][c] / material.density * rise);
+      temperature = solid_temperature(material, solid_enthalpy(material, old) + heat / material.density);
     }
     if (!(temperature > 0 && temperature < 1e5)) {
       throw Failure(
           ExitCode::diverged,
           fmt::format("the temperature of tracer {} became {} K; shorten tracer.time_step", tracers.id[i], temperature))
           .at("tracer", std::to_string(tracers.id[i]))
-          .at("cell", std::to_string(c))
+          .at("cell", std::to_string(tracers.point[i].cell))
           .advise("tracer.time_step", fmt::format("{:.6g}", step / 2));
     }
+    // The end of a step that is nearest to when it melts: early as often as late.
+    const double next = temperature + std::max(0.0, 0.5 * (temperature - old));
+    if (material.softening && next >= material.softening->melted && !leaving[i]) leaving[i] = Cause::melted;
   }
   return conducted.walls;
 }
 
-double HeatStep::relaxation_time(const CellContents& contents, double step) const {
+double HeatStep::relaxation_time(const CellContents& contents) const {
   double capacity = 0;
   double conductance = 0;
-  const BySpecies& decay = exchange_.decay();
-  for (std::size_t s = 0; s < decay.size(); ++s) {
+  const BySpecies& rate = exchange_.rate();
+  for (std::size_t s = 0; s < rate.size(); ++s) {
     const Species& species = campaign_.species[s];
-    for (std::size_t c = 0; c < decay[s].size(); ++c) {
+    for (std::size_t c = 0; c < rate[s].size(); ++c) {
       const double here =
           species.density * species.heat_capacity.at(contents.temperature[s][c]) * contents.volume[s][c];
       capacity += here;
-      conductance -= here * std::log(std::max(decay[s][c], 1e-300)) / step;
+      conductance += here * rate[s][c];
     }
   }
   return conductance > 0 ? capacity / conductance : std::numeric_limits<double>::infinity();
 }
 
 SolidsExchange HeatStep::solids_at_rest(const CellContents& contents, const BedState& bed, const GasModel& gas) {
-  exchange_.set_rates(fields_of(gas, bed), contents, 0);
-  return exchange_.solids(contents);
+  exchange_.set_rates(fields_of(gas, bed), contents);
+  return exchange_.solids(contents, 0);
 }
 
 double HeatStep::settle_stagnant(Tracers& tracers, const CellContents& contents, const BySpecies& bed_volume,
                                  const std::vector<bool>& stagnant, const BedState& bed, const GasModel& gas) const {
   const CellContents spread_contents = spread(contents, kernel_);
   Exchange at_rest(campaign_, kernel_);
-  at_rest.set_rates(fields_of(gas, bed), contents, 0);
+  at_rest.set_rates(fields_of(gas, bed), contents);
   BySpecies conductance;
   for (std::size_t s = 0; s < spread_contents.volume.size(); ++s) {
     conductance.push_back(at_rest.coefficient()[s]);
@@ -131,20 +197,6 @@ double HeatStep::settle_stagnant(Tracers& tracers, const CellContents& contents,
     tracers.temperature[i] = target;
   }
   return largest;
-}
-
-void remove_molten(Tracers& tracers, const Campaign& campaign, Tally& tally) {
-  std::vector<std::uint8_t> drop(tracers.size(), 0);
-  bool any = false;
-  for (std::size_t i = 0; i < tracers.size(); ++i) {
-    const Species& species = campaign.species[tracers.species[i]];
-    if (!species.softening || tracers.temperature[i] < species.softening->melted) continue;
-    tally.leave(Cause::melted, tracers.volume[i] * species.density,
-                enthalpy(species, tracers.volume[i], tracers.temperature[i]));
-    drop[i] = 1;
-    any = true;
-  }
-  if (any) tracers.remove(drop);
 }
 
 }  // namespace cupola

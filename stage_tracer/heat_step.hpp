@@ -3,30 +3,39 @@
 #include "stage_tracer/exchange.hpp"
 #include "stage_tracer/gas_model.hpp"
 #include "stage_tracer/part_clock.hpp"
-#include "stage_tracer/removal.hpp"
-#include "stage_tracer/tracers.hpp"
+#include "stage_tracer/stays.hpp"
 
 namespace cupola {
 
 /// Heat of one step: convection with the gas (Exchange), then conduction in the solids, both applied to the tracers
-/// with the weights that made the cell sums, so that the tracers take exactly what gas and neighbours give.  A tracer
-/// takes it as enthalpy: where heat capacities change with the temperature, or a species melts over a range, its new
-/// temperature is that of its new enthalpy.
+/// with the weights that made the cell sums, so that the tracers take exactly what gas and neighbours give.
+///
+/// A tracer feels the gas of all cells on its path (Stays), one after the other, each for as long as it is there: with
+/// the gas steady over the step, its rate k_j and felt temperature T*_j in the stay j of length t_j,
+///   T' = T + sum_j a_j (T*_j - T),  a_j = (1 - exp(-k_j t_j)) exp(-sum of k t of later stays),
+/// which is exact, and linear in the gas temperatures: the gas is solved with the conductance C a_j/dt, C the tracer's
+/// heat capacity.  So what it feels does not jump where it crosses from cell to cell, and is of second order in dt.
+///
+/// A tracer takes heat as enthalpy: where heat capacities change with the temperature, or a species melts over a range,
+/// its new temperature is that of its new enthalpy.  It melts at the end of the step nearest to its melting
+/// temperature, half of a step's rise early or late.
 class HeatStep {
  public:
-  /// @param clock counts the parts `exchange`, `gas energy` and `conduction`
-  HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction, PartClock& clock)
-      : campaign_(campaign), kernel_(kernel), conduction_(conduction), clock_(clock), exchange_(campaign, kernel) {}
+  /// @param clock counts the parts `exchange`, `exchange on cells`, `gas energy` and `conduction`
+  HeatStep(const Campaign& campaign, const CellSpreading& kernel, const Conduction& conduction, SumOverRanks sum,
+           PartClock& clock);
 
-  /// @param contents sums of all ranks where the tracers are (not spread); its temperatures follow the tracers'
+  /// @param contents means of all ranks over the step where the tracers are (sum_stays; not spread); in the end its
+  /// temperatures are means over the step
   /// @param gas may be null: conduction alone
+  /// @param leaving gets those that melt
   /// @return J that the solids lost to the walls
-  double advance(Tracers& tracers, CellContents& contents, const BySpecies& bed_volume, const BedState& bed,
-                 GasModel* gas, double step);
+  double advance(Tracers& tracers, const Stays& stays, CellContents& contents, const BySpecies& bed_volume,
+                 const BedState& bed, GasModel* gas, Leaving& leaving);
 
-  /// Time in which the tracers approach the gas, s: their heat capacity over their conductance in the last step, of
-  /// `step` s; infinite without gas. @param contents as in `advance`
-  [[nodiscard]] double relaxation_time(const CellContents& contents, double step) const;
+  /// Time in which the tracers approach the gas, s: their heat capacity over their conductance in the last step;
+  /// infinite without gas. @param contents as in `advance`
+  [[nodiscard]] double relaxation_time(const CellContents& contents) const;
 
   /// What the gas sees of the solids at rest (no step): for its first solution.
   [[nodiscard]] SolidsExchange solids_at_rest(const CellContents& contents, const BedState& bed, const GasModel& gas);
@@ -41,15 +50,18 @@ class HeatStep {
   [[nodiscard]] const std::vector<double>& largest_biot() const { return largest_biot_; }
 
  private:
+  /// Sets the a_j of all stays, and sums V a_j and V a_j T of all ranks in each cell, [species][cell].
+  void take_along_paths(const Tracers& tracers, const Stays& stays, BySpecies& taken, BySpecies& taken_temperature);
+
   const Campaign& campaign_;
   const CellSpreading& kernel_;
   const Conduction& conduction_;
+  SumOverRanks sum_;
   PartClock& clock_;
   Exchange exchange_;
+  std::vector<double> constant_capacity_;  ///< J/m3/K, of each species; 0 where it changes with the temperature
+  std::vector<double> approach_;           ///< a_j of the stays of the step
   std::vector<double> largest_biot_ = std::vector<double>(campaign_.species.size(), 0.0);
 };
-
-/// Removes the tracers that have reached their melting temperature.
-void remove_molten(Tracers& tracers, const Campaign& campaign, Tally& tally);
 
 }  // namespace cupola

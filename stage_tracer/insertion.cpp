@@ -12,7 +12,7 @@ Insertion::Insertion(const BedMesh& mesh, std::vector<StockFace> faces, const Ch
       charge_(charge),
       tracer_volume_(std::move(tracer_volume)),
       seed_(seed),
-      next_id_(first_id) {
+      first_id_(first_id) {
   const std::size_t species = tracer_volume_.size();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const auto& sides = mesh.cell_faces[faces_[f].cell];
@@ -20,7 +20,8 @@ Insertion::Insertion(const BedMesh& mesh, std::vector<StockFace> faces, const Ch
     // A random part of a tracer owed at the start keeps the faces from charging in step.
     for (std::size_t s = 0; s < species; ++s) {
       const auto uniform = random_uniform(seed_, RandomUse::entry_phase, f * species + s);
-      owed_.push_back(uniform[0] * tracer_volume_[s]);
+      state_.owed.push_back(uniform[0] * tracer_volume_[s]);
+      state_.entered.push_back(0);
     }
   }
 }
@@ -36,12 +37,12 @@ std::vector<Entry> Insertion::advance(double from, double to) {
       for (std::size_t s = 0; s < species; ++s) {
         const double rate = faces_[f].volume_rate * (*piece.share)[s];
         if (rate <= 0) continue;
-        double& owed = owed_[f * species + s];
+        double& owed = state_.owed[f * species + s];
         double time = piece.from;
         while (owed + rate * (piece.to - time) >= tracer_volume_[s]) {
           time += (tracer_volume_[s] - owed) / rate;
           owed = 0;
-          entries.push_back(enter(faces_[f], side_[f], s, std::min(time, piece.to)));
+          entries.push_back(enter(f, s, std::min(time, piece.to)));
         }
         owed += rate * std::max(0.0, piece.to - time);
       }
@@ -50,22 +51,20 @@ std::vector<Entry> Insertion::advance(double from, double to) {
   return entries;
 }
 
-Entry Insertion::enter(const StockFace& face, std::size_t side, std::size_t species, double time) {
+Entry Insertion::enter(std::size_t face, std::size_t species, double time) {
+  const std::size_t place = face * tracer_volume_.size() + species;
+  const std::size_t side = side_[face];
   Entry entry;
-  entry.id = next_id_++;
+  entry.id = first_id_ + static_cast<std::int64_t>(place) +
+             state_.entered[place]++ * static_cast<std::int64_t>(state_.entered.size());
   entry.species = static_cast<std::uint8_t>(species);
   entry.time = time;
   entry.volume = tracer_volume_[species];
-  entry.point.cell = face.cell;
+  entry.point.cell = faces_[face].cell;
   const auto uniform = random_uniform(seed_, RandomUse::entry_position, static_cast<std::uint64_t>(entry.id));
   entry.point.reference = {uniform[0], uniform[1], uniform[2]};
   entry.point.reference[side / 2] = side % 2 == 0 ? 0.0 : 1.0;
   return entry;
-}
-
-void Insertion::restore(std::vector<double> owed, std::int64_t next_id) {
-  owed_ = std::move(owed);
-  next_id_ = next_id;
 }
 
 }  // namespace cupola

@@ -21,8 +21,8 @@ struct Entry {
 
 /// Charges the bed through the faces of the stock plane.  Each face passes the layers in turn at its own volume rate
 /// and keeps, a species, the volume it still owes; a tracer enters at the instant the owed volume has grown to a
-/// tracer's.  So the volume charged through a face follows its flux for ever, whatever the steps.  Every rank computes
-/// all entries (the same ones) and keeps its own.
+/// tracer's.  So the volume charged through a face follows its flux for ever, and times, ids and with them all random
+/// numbers of the tracers are the same whatever the steps.  Every rank computes all entries and keeps its own.
 class Insertion {
  public:
   /// @param tracer_volume m3 of a tracer of each species
@@ -33,21 +33,24 @@ class Insertion {
   /// All entries of the time interval, sorted by face, then time.
   std::vector<Entry> advance(double from, double to);
 
-  /// State for a checkpoint: owed volume in m3, faces x species; the next id.
-  [[nodiscard]] const std::vector<double>& owed() const { return owed_; }
-  [[nodiscard]] std::int64_t next_id() const { return next_id_; }
-  void restore(std::vector<double> owed, std::int64_t next_id);
+  /// For a checkpoint, faces x species: the volume owed, m3, and the tracers that have entered.
+  struct State {
+    std::vector<double> owed;
+    std::vector<std::int64_t> entered;
+  };
+  [[nodiscard]] const State& state() const { return state_; }
+  void restore(State state) { state_ = std::move(state); }
 
  private:
-  Entry enter(const StockFace& face, std::size_t side, std::size_t species, double time);
+  Entry enter(std::size_t face, std::size_t species, double time);
 
   std::vector<StockFace> faces_;
   std::vector<std::size_t> side_;  ///< of each face in its cell: 0-5 in reference order
   const ChargePlan& charge_;
   std::vector<double> tracer_volume_;
   std::uint64_t seed_;
-  std::int64_t next_id_;
-  std::vector<double> owed_;
+  std::int64_t first_id_;
+  State state_;
 };
 
 }  // namespace cupola

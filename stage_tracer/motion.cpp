@@ -6,7 +6,7 @@
 namespace cupola {
 namespace {
 
-enum Mark : std::uint8_t { in_bed = 1, stands_still = 2, reaches_too_low = 4 };
+enum Mark : std::uint8_t { in_bed = 1, stands_still = 2, reaches_too_low = 4, removes = 8 };
 
 }  // namespace
 
@@ -22,12 +22,27 @@ Motion::Motion(const Campaign& campaign, const GranularField& field, const PathF
   for (std::size_t c = 0; c < marks_.size(); ++c) {
     const bool low = paths.lowest(static_cast<std::int64_t>(c)) < none_below_;
     marks_[c] = static_cast<std::uint8_t>((field.bed[c] ? in_bed : 0) | (field.stagnant[c] ? stands_still : 0) |
-                                          (low ? reaches_too_low : 0));
+                                          (low ? reaches_too_low : 0) | (field.removal_rate[c] > 0 ? removes : 0));
   }
 }
 
-void Motion::advance(Tracers& tracers, double from, double to, const std::vector<Entry>& entries, std::uint64_t seed,
-                     Tally& tally) const {
+bool Motion::live(double& life, std::vector<PathField::Stay>& stays, std::size_t first) const {
+  for (std::size_t j = first; j < stays.size(); ++j) {
+    const auto cell = static_cast<std::size_t>(stays[j].cell);
+    if ((marks_[cell] & removes) == 0) continue;
+    const double used_up = stays[j].seconds * field_.removal_rate[cell];
+    if (used_up >= life) {
+      stays[j].seconds *= life / used_up;
+      stays.resize(j + 1);
+      return true;
+    }
+    life -= used_up;
+  }
+  return false;
+}
+
+Motion::Moved Motion::advance(Tracers& tracers, double from, double to, const std::vector<Entry>& entries,
+                              std::uint64_t seed, Tally& tally) const {
   const bool heat = campaign_.heat.has_value();
   const std::size_t old = tracers.size();
   for (const Entry& entry : entries) {
@@ -37,28 +52,34 @@ void Motion::advance(Tracers& tracers, double from, double to, const std::vector
     tally.enter(entry.volume * species.density,
                 heat ? enthalpy(species, entry.volume, campaign_.charging.temperature) : 0);
   }
-  std::vector<std::uint8_t> drop(tracers.size(), 0);
-  bool any = false;
+  Moved moved{Stays(to - from), Leaving(tracers.size())};
+  std::vector<PathField::Stay>& stays = moved.stays.open();
+  stays.reserve(2 * tracers.size());
   for (std::size_t i = 0; i < tracers.size(); ++i) {
     PathField::Point& point = tracers.point[i];
-    if ((marks_[static_cast<std::size_t>(point.cell)] & stands_still) != 0) continue;
+    const std::size_t first = stays.size();
     const double seconds = i < old ? to - from : to - entries[i - old].time;
-    double used_up = 0;
-    const PathField::End end = paths_.advance(point, seconds, field_.removal_rate, used_up);
-    tracers.life[i] -= used_up;
+    if ((marks_[static_cast<std::size_t>(point.cell)] & stands_still) != 0) {
+      stays.push_back({static_cast<std::int32_t>(point.cell), seconds});
+      moved.stays.next_tracer();
+      continue;
+    }
+    const PathField::End end = paths_.advance(point, seconds, stays);
+    const bool used_up = live(tracers.life[i], stays, first);
+    moved.stays.next_tracer();
     const std::uint8_t mark = marks_[static_cast<std::size_t>(point.cell)];
     const Species& species = campaign_.species[tracers.species[i]];
     const bool too_low =
         (mark & reaches_too_low) != 0 && species.softening && paths_.position(point)[2] < species.none_below;
-    const bool gone = end == PathField::End::left_through_outflow || (mark & in_bed) == 0;
-    if (tracers.life[i] > 0 && !too_low && !gone) continue;
-    const Cause cause = tracers.life[i] <= 0 ? Cause::raceway : (too_low ? Cause::unmelted : Cause::lost);
-    tally.leave(cause, tracers.volume[i] * species.density,
-                heat ? enthalpy(species, tracers.volume[i], tracers.temperature[i]) : 0);
-    drop[i] = 1;
-    any = true;
+    if (used_up) {
+      moved.leaving[i] = Cause::raceway;
+    } else if (too_low) {
+      moved.leaving[i] = Cause::unmelted;
+    } else if (end == PathField::End::left_through_outflow || (mark & in_bed) == 0) {
+      moved.leaving[i] = Cause::lost;
+    }
   }
-  if (any) tracers.remove(drop);
+  return moved;
 }
 
 }  // namespace cupola

@@ -6,16 +6,6 @@
 #include "schemas/failure.hpp"
 
 namespace cupola {
-namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-}  // namespace
-
 std::vector<double> network_inflow(const std::vector<Link>& links, const std::vector<double>& x) {
   std::vector<double> inflow(x.size(), 0.0);
   for (const Link& link : links) {
@@ -28,40 +18,49 @@ std::vector<double> network_inflow(const std::vector<Link>& links, const std::ve
 
 int solve_network(const std::vector<Link>& links, const std::vector<double>& diagonal,
                   const std::vector<double>& source, std::vector<double>& x, double tolerance, int most_iterations) {
-  std::vector<double> full = diagonal;
+  const std::size_t nodes = x.size();
+  std::vector<double> inverse = diagonal;
   for (const Link& link : links) {
-    full[link.first] += link.conductance;
-    full[link.second] += link.conductance;
+    inverse[link.first] += link.conductance;
+    inverse[link.second] += link.conductance;
   }
+  for (double& value : inverse) value = value > 0 ? 1 / value : 0;
+  std::vector<double> applied(nodes);
   const auto apply = [&](const std::vector<double>& v) {
-    std::vector<double> result = network_inflow(links, v);
-    for (std::size_t i = 0; i < v.size(); ++i) result[i] = diagonal[i] * v[i] - result[i];
-    return result;
+    for (std::size_t i = 0; i < nodes; ++i) applied[i] = diagonal[i] * v[i];
+    for (const Link& link : links) {
+      const double flow = link.conductance * (v[link.second] - v[link.first]);
+      applied[link.first] -= flow;
+      applied[link.second] += flow;
+    }
   };
-  const auto precondition = [&](const std::vector<double>& r) {
-    std::vector<double> z(r.size(), 0.0);
-    for (std::size_t i = 0; i < r.size(); ++i) z[i] = full[i] > 0 ? r[i] / full[i] : 0;
-    return z;
-  };
-  std::vector<double> residual = apply(x);
-  for (std::size_t i = 0; i < x.size(); ++i) residual[i] = full[i] > 0 ? source[i] - residual[i] : 0;
-  std::vector<double> z = precondition(residual);
-  std::vector<double> direction = z;
-  double rz = dot(residual, z);
+  apply(x);
+  std::vector<double> residual(nodes), direction(nodes);
+  double rz = 0;
+  double largest = 0;  // of the corrections that the diagonal alone would make
+  for (std::size_t i = 0; i < nodes; ++i) {
+    residual[i] = inverse[i] > 0 ? source[i] - applied[i] : 0;
+    direction[i] = residual[i] * inverse[i];
+    rz += residual[i] * direction[i];
+    largest = std::max(largest, std::abs(direction[i]));
+  }
   for (int iteration = 0; iteration <= most_iterations; ++iteration) {
-    const double largest = z.empty() ? 0 : std::abs(*std::max_element(z.begin(), z.end(), [](double a, double b) {
-      return std::abs(a) < std::abs(b);
-    }));
     if (largest <= tolerance) return iteration;
-    const std::vector<double> applied = apply(direction);
-    const double length = rz / dot(direction, applied);
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    apply(direction);
+    double curvature = 0;
+    for (std::size_t i = 0; i < nodes; ++i) curvature += direction[i] * applied[i];
+    const double length = rz / curvature;
+    double next = 0;
+    largest = 0;
+    for (std::size_t i = 0; i < nodes; ++i) {
       x[i] += length * direction[i];
       residual[i] -= length * applied[i];
+      const double z = residual[i] * inverse[i];
+      next += residual[i] * z;
+      largest = std::max(largest, std::abs(z));
     }
-    z = precondition(residual);
-    const double next = dot(residual, z);
-    for (std::size_t i = 0; i < x.size(); ++i) direction[i] = z[i] + next / rz * direction[i];
+    const double ratio = next / rz;
+    for (std::size_t i = 0; i < nodes; ++i) direction[i] = residual[i] * inverse[i] + ratio * direction[i];
     rz = next;
   }
   throw Failure(ExitCode::diverged, "conduction in the solids did not converge; shorten tracer.time_step");

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "physics/closures/solid_enthalpy.hpp"
@@ -9,7 +10,7 @@
 namespace cupola {
 
 /// Why a tracer leaves the bed.
-enum class Cause : std::size_t { raceway, melted, unmelted, lost };
+enum class Cause : std::uint8_t { raceway, melted, unmelted, lost };
 inline constexpr std::size_t causes = 4;
 
 /// Mass and enthalpy (from 293 K) that have left or entered, by cause, and tracers counted.

@@ -7,7 +7,10 @@
 namespace cupola {
 namespace {
 
-constexpr double part_of_crossing = 0.2;
+constexpr double first_part = 0.2;
+constexpr double longest_part = 0.5;
+constexpr double shortest_part = 0.1;
+constexpr double part_of_duration = 0.01;  // first step of a bed at rest
 constexpr double faster_volume = 0.1;
 
 /// Crossing time that `faster_volume` of the moving bed falls below, s.
@@ -39,16 +42,12 @@ TimeSteps fill_with_steps(double duration, double longest) {
   return steps;
 }
 
-TimeSteps choose_time_steps(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
-                            const PathField& paths, const ChargePlan* charge) {
-  const double duration = campaign.tracer.longest();
-  double length = duration / 100;
-  if (campaign.tracer.time_step) {
-    length = *campaign.tracer.time_step;
-  } else if (charge != nullptr) {
-    length = part_of_crossing * std::min(crossing_time(mesh, field, paths), charge->thinnest_layer_seconds());
-  }
-  return fill_with_steps(duration, length);
+StepLimits step_limits(const BedMesh& mesh, const Campaign& campaign, const GranularField& field,
+                       const PathField& paths, const ChargePlan* charge) {
+  const double passage = charge != nullptr
+                             ? std::min(crossing_time(mesh, field, paths), charge->thinnest_layer_seconds())
+                             : campaign.tracer.longest() * part_of_duration / first_part;
+  return {first_part * passage, shortest_part * passage, longest_part * passage};
 }
 
 }  // namespace cupola

@@ -1,4 +1,3 @@
-#include <mpi.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -11,56 +10,110 @@ namespace cupola {
 namespace {
 
 constexpr int windows_in_a_row = 2;  // that must agree before a march is ended
-constexpr const char* trial_file = "trial.hdf";
+/// Steps of twice the length that are compared with the march, where there is room for them.
+constexpr long most_pairs = 4;
+constexpr long steps_before_trial = 4;
+constexpr long least_steps_for_usual_trials = 16;
+/// Where a trial has changed nothing the next one is made after this many times as many steps.
+constexpr long patience = 3;
+/// Part of the accuracy asked for that the step may cost; the rest is the flow's lag and the noise of the tracers.
+constexpr double part_of_accuracy = 0.7;
+constexpr double most_growth = 2;
+constexpr double most_shrinkage = 0.1;
+constexpr double worth_a_change = 0.15;
 
 }  // namespace
 
-void TracerStage::save_trial() const {
-  const std::vector<double> rows = gather_to_first(to_rows(tracers_));
-  if (foam_.rank() == 0) {
-    HdfWriter file(folder_ / trial_file);
-    write_state(file, rows);
-    file.commit();
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
+struct TracerStage::Snapshot {
+  long step;
+  double now;
+  Tracers tracers;
+  Ledger ledger;
+  Averages averages;
+  Tally tally;
+  std::int64_t held_back, cells_at_floor;
+  std::optional<Insertion::State> insertion{};
+  std::optional<GasModel::State> gas{};
+};
+
+TracerStage::Snapshot TracerStage::snapshot() const {
+  Snapshot kept{step_, now_, tracers_, ledger_, averages_, local_tally_, held_back_, cells_at_floor_};
+  if (insertion_) kept.insertion = insertion_->state();
+  if (gas_) kept.gas = gas_->state();
+  return kept;
 }
 
-double TracerStage::compare_steps() {
+void TracerStage::go_back_to(Snapshot kept) {
+  step_ = kept.step;
+  now_ = kept.now;
+  tracers_ = std::move(kept.tracers);
+  ledger_ = kept.ledger;
+  averages_ = std::move(kept.averages);
+  local_tally_ = kept.tally;
+  held_back_ = kept.held_back;
+  cells_at_floor_ = kept.cells_at_floor;
+  if (insertion_) insertion_->restore(std::move(*kept.insertion));
+  if (gas_) gas_->restore(std::move(*kept.gas));
+}
+
+SolidsState TracerStage::solids_now() const {
+  const CellContents contents = sum_tracers(tracers_, campaign_.species.size(), mesh_.cells(), true, sum_);
+  return {spread(contents, kernel_), campaign_};
+}
+
+void TracerStage::begin_trial() {
+  if (!campaign_.heat || trial_) return;
+  // A short march has its first trial early.
+  const long first = steps_.count < least_steps_for_usual_trials ? steps_.count / 4 : steps_before_trial;
+  const long pairs = std::min(most_pairs, (steps_.count - step_) / 2);
+  if (step_ < std::max(first, next_trial_) || pairs < 1) return;
   const auto running = clock_.measure("error estimate");
   const auto parts = clock_.seconds();
-  const Tally tally = local_tally_;
-  const std::int64_t held_back = held_back_;
-  const auto undo = [&] {
-    read_state(HdfReader(folder_ / trial_file));
-    local_tally_ = tally;
-    held_back_ = held_back;
-  };
-  save_trial();
-  advance(2 * steps_.length);
-  const TracerTemperatures one_step(tracers_);
-  undo();
-  advance(steps_.length);
-  ++step_;
-  advance(steps_.length);
-  const double difference = temperature_difference(one_step, tracers_, campaign_, sum_);
-  const double memory = std::min(heat_.relaxation_time(contents_, steps_.length), campaign_.tracer.longest());
-  undo();
-  error_memory_ = memory;
+  Snapshot kept = snapshot();
+  StepTrial trial{step_, pairs, {}, {}};
+  for (long pair = 0; pair < pairs; ++pair, step_ += 2) {
+    advance(2 * steps_.length);
+    if (pair == 0) trial.early = solids_now();
+  }
+  trial.late = solids_now();
+  go_back_to(std::move(kept));
+  trial_ = std::move(trial);
   clock_.restore(parts);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (foam_.rank() == 0) std::filesystem::remove(folder_ / trial_file);
-  return difference;
 }
 
-void TracerStage::estimate_error() {
-  if (step_ + 2 > steps_.count) return;
+void TracerStage::judge_trial() {
+  if (!trial_ || step_ < trial_->begin + 2) return;
+  const bool first = step_ == trial_->begin + 2;
+  const bool last = step_ == trial_->begin + 2 * trial_->pairs;
+  if (!first && !last) return;
+  const auto running = clock_.measure("error estimate");
+  const SolidsState reached = solids_now();
+  if (first) early_difference_ = temperature_difference(trial_->early, reached);
+  if (!last) return;
+  step_error_ = {steps_.length, early_difference_, temperature_difference(trial_->late, reached),
+                 2 * static_cast<double>(trial_->pairs) * steps_.length, heat_.relaxation_time(contents_)};
+  trial_.reset();
+  next_trial_ = choose_step() ? step_ + steps_before_trial : patience * step_;
+}
+
+bool TracerStage::choose_step() {
   const double duration = campaign_.tracer.longest();
-  step_error_ = {compare_steps(), steps_.length};
-  const double error = step_error_.after(duration, error_memory_);
+  const double error = step_error_.after(duration, steps_.length);
   if (foam_.rank() == 0) {
-    spdlog::info("after {} steps, of {:.4g} s: one step of twice the length differs by {:.2g}, estimated error {:.2g}",
-                 step_, steps_.length, step_error_.pair, error);
+    spdlog::info(
+        "after {} steps, of {:.4g} s: half as many of twice the length differ by {:.2g} after {:.4g} s, growing with "
+        "time to the {:.2g}; estimated error {:.2g}",
+        step_, steps_.length, step_error_.late, step_error_.seconds, step_error_.growth(), error);
   }
+  if (campaign_.tracer.time_step || step_ >= steps_.count) return false;
+  const double wanted = error > 0 ? part_of_accuracy * campaign_.tracer.accuracy / error : most_growth;
+  const double length =
+      std::clamp(steps_.length * std::clamp(wanted, most_shrinkage, most_growth), limits_.shortest, limits_.longest);
+  if (std::abs(length / steps_.length - 1) < worth_a_change) return false;
+  const TimeSteps rest = fill_with_steps(duration - now_, length);
+  steps_ = {step_ + rest.count, rest.length};
+  if (foam_.rank() == 0) spdlog::info("the step becomes {:.4g} s", steps_.length);
+  return true;
 }
 
 void TracerStage::end_window() {

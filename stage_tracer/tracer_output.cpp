@@ -12,7 +12,7 @@
 namespace cupola {
 namespace {
 
-constexpr long most_history_lines = 400;
+constexpr long most_history_lines = 200;
 constexpr double usual_checkpoint_interval = 60;  // s of wall time
 constexpr double seconds_between_progress = 1;
 
@@ -65,7 +65,7 @@ void TracerStage::write_output(bool checkpoint_now, bool last) {
 nlohmann::json TracerStage::history_line() const {
   nlohmann::json line = {{"step", step_}, {"time", now_}, {"tracers", all_tracers_}, {"wall_seconds", wall_seconds()}};
   if (!campaign_.heat) return line;
-  if (step_error_.seconds > 0) line["time_step_error"] = step_error_.after(now_, error_memory_);
+  if (step_error_.seconds > 0) line["time_step_error"] = step_error_.after(now_, steps_.length);
   line["mean_solid_temperature"] = mean_temperature(contents_, campaign_);
   if (gas_) {
     line["top_gas_temperature"] = gas_->energy_ledger().top_gas_temperature;
@@ -93,7 +93,7 @@ MarchOutcome TracerStage::outcome() {
   result.steps = step_;
   result.time_step = steps_.length;
   result.process_seconds = now_;
-  if (campaign_.heat) result.step_error = step_error_.after(now_, error_memory_);
+  if (campaign_.heat) result.step_error = step_error_.after(now_, steps_.length);
   result.until_steady = campaign_.tracer.stop == TracerSettings::Stop::steady;
   result.remaining = steady_.remaining();
   result.windows = steady_.windows();

@@ -18,13 +18,6 @@
 namespace cupola {
 namespace {
 
-/// The estimate is made anew after 4, 16, 64 … steps: most often while the field still changes fast.
-bool is_power_of_four(long step) {
-  if (step < 4) return false;
-  while (step % 4 == 0) step /= 4;
-  return step == 1;
-}
-
 std::filesystem::path granular_result(const std::filesystem::path& folder, const Task& task) {
   const auto input = task.inputs.find("granular");
   if (input == task.inputs.end()) {
@@ -91,15 +84,16 @@ TracerStage::TracerStage(FoamCase& foam, std::filesystem::path folder, const Tas
       paths_(mesh_, field_.face_flux, field_.storage),
       split_(tracers_per_parcel(campaign_, locator_, field_.bed, dem_.packing)),
       charge_(make_charge(campaign_, mesh_, field_, dem_)),
-      steps_(choose_time_steps(mesh_, campaign_, field_, paths_, charge_.get())),
+      limits_(step_limits(mesh_, campaign_, field_, paths_, charge_.get())),
       kernel_(mesh_, field_.bed, kernel_diameter(campaign_, field_.charge), share_cells(mesh_.cells())),
       conduction_(mesh_, campaign_, field_.bed, field_.charge.layer_thickness, field_.charge.volume_share),
       motion_(campaign_, field_, paths_),
       sum_(sum_over_world()),
       empty_share_(share_of_persistent(campaign_, field_.charge)),
       displaced_(displaced_cells(mesh_, campaign_, field_.bed, previous_.ore)),
+      steps_(fill_with_steps(campaign_.tracer.longest(), campaign_.tracer.time_step.value_or(limits_.first))),
       averages_(campaign_.species.size(), mesh_.cells(), campaign_.heat.has_value()),
-      heat_(campaign_, kernel_, conduction_, clock_) {
+      heat_(campaign_, kernel_, conduction_, sum_, clock_) {
   if (campaign_.scene.gas && campaign_.tracer.gas != TracerSettings::GasModel::none) {
     gas_ = std::make_unique<GasModel>(foam_, mesh_, campaign_);
   }
@@ -128,17 +122,16 @@ ExitCode TracerStage::run() {
   last_checkpoint_ = wall_seconds();
   bool done = step_ >= steps_.count;
   while (!done) {
-    if (campaign_.heat && is_power_of_four(step_)) estimate_error();
+    begin_trial();
     step();
     if (windows_) end_window();
     done = step_ >= steps_.count || is_steady();
+    // After the windows, which count with the length of the step just made.
+    judge_trial();
     const bool stop = StopRequest::agreed(MPI_COMM_WORLD) && !done;
     write_output(stop, done);
     if (stop) return ExitCode::stopped;
   }
-  // The last half step.
-  move(now_);
-  close_balances();
   const MarchOutcome result = outcome();
   if (foam_.rank() == 0) {
     write_result(folder_, task_, result);
@@ -157,7 +150,7 @@ void TracerStage::begin() {
   tracers_ = seed_tracers(campaign_, locator_, paths_, field_.bed, dem_.packing, split_, task_.random_seed,
                           foam_.rank(), foam_.ranks());
   if (campaign_.heat) set_temperatures(tracers_, previous_, campaign_, paths_);
-  compose();
+  compose(Stays(tracers_, 1));
   if (gas_) begin_gas();
   close_balances();
   ledger_.mass_begin = ledger_.mass_now;
@@ -192,19 +185,22 @@ void TracerStage::begin_gas() {
   // Flow, gas energy and the stagnant solids in turns, until they agree within a kelvin.
   const bool settle = charge_ && std::count(field_.stagnant.begin(), field_.stagnant.end(), true) > 0;
   constexpr int most_turns = 20;
+  constexpr double settling_tolerance = 1e-3;  // of the flow, while the temperatures still change
+  constexpr int settling_iterations = 5;
   for (int turn = 0; turn < most_turns; ++turn) {
     const std::vector<double> before = gas_->temperature();
     gas_->solve_energy(bed_, heat_.solids_at_rest(contents_, bed_, *gas_));
     if (settle) {
       heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, bed_, *gas_);
-      compose();
+      compose(Stays(tracers_, 1));
     }
-    gas_->solve_flow_tightly(bed_);
+    gas_->improve_flow(bed_, settling_tolerance, settling_iterations);
     double change = 0;
     for (std::size_t c = 0; c < before.size(); ++c)
       change = std::max(change, std::abs(gas_->temperature()[c] - before[c]));
     if (change < 1) break;
   }
+  gas_->solve_flow_tightly(bed_);
 }
 
 }  // namespace cupola

@@ -46,17 +46,23 @@ class TracerStage {
   void write_state(HdfWriter& file, const std::vector<double>& all_tracer_rows) const;
   void read_state(const HdfReader& file);
 
-  /// What the step costs in accuracy, by step doubling.
-  void estimate_error();
-  /// Difference of the tracers' temperatures after two steps and after one of twice the length; the state stays.
-  [[nodiscard]] double compare_steps();
-  void save_trial() const;
+  /// What the step costs in accuracy, by step doubling (StepError): where a trial is due, steps of twice the length are
+  /// made, and the state is as before; when the march gets there it is compared and, with `time_step: auto`, the step
+  /// follows.
+  void begin_trial();
+  void judge_trial();
+  [[nodiscard]] bool choose_step();
+  /// The state of the march, to go back to.
+  struct Snapshot;
+  [[nodiscard]] Snapshot snapshot() const;
+  void go_back_to(Snapshot kept);
+  [[nodiscard]] SolidsState solids_now() const;
   void step();
   void advance(double seconds);
-  void move(double to);
+  [[nodiscard]] Motion::Moved move(double seconds);
   void displace_tracers(double seconds);
-  void compose();
-  void exchange_heat(double seconds);
+  void compose(const Stays& stays);
+  void exchange_heat(Motion::Moved& moved);
   void begin_gas();
   void average(double seconds);
   [[nodiscard]] bool is_steady();
@@ -88,7 +94,7 @@ class TracerStage {
   PathField paths_;
   int split_;                                 ///< tracers a parcel
   std::unique_ptr<const ChargePlan> charge_;  ///< null for a bed at rest
-  TimeSteps steps_;                           ///< of the whole stage
+  StepLimits limits_;
   CellSpreading kernel_;
   Conduction conduction_;
   Motion motion_;
@@ -98,12 +104,14 @@ class TracerStage {
 
   // The state of the march.
   long step_ = 0;
-  double now_ = 0;           ///< s, end of the last step
-  double positions_at_ = 0;  ///< s, time the tracers' positions belong to: the middle of the last step
+  double now_ = 0;  ///< s, end of the last step
   SteadyWatch steady_;
+  TimeSteps steps_;  ///< of the whole stage
   StepError step_error_;
-  double error_memory_ = 0;     ///< s, for how long the tracers remember what was wrong in a step
-  std::int64_t held_back_ = 0;  ///< displacements of this rank's tracers not made because of walls
+  std::optional<StepTrial> trial_;  ///< under way
+  long next_trial_ = 0;             ///< not before this step
+  double early_difference_ = 0;     ///< of the trial
+  std::int64_t held_back_ = 0;      ///< displacements of this rank's tracers not made because of walls
   Tracers tracers_;
   std::unique_ptr<Insertion> insertion_;  ///< null for a bed at rest
   Ledger ledger_;

@@ -20,6 +20,7 @@ void TracerStage::resume(const std::filesystem::path& checkpoint) {
   if (campaign_.tracer.time_step && steps_.length > *campaign_.tracer.time_step * (1 + round_off)) {
     const TimeSteps rest = fill_with_steps(campaign_.tracer.longest() - now_, *campaign_.tracer.time_step);
     steps_ = {step_ + rest.count, rest.length};
+    trial_.reset();  // it was of other steps
   }
   if (foam_.rank() == 0) {
     cut_history(folder_, step_);
@@ -28,14 +29,16 @@ void TracerStage::resume(const std::filesystem::path& checkpoint) {
 }
 
 void TracerStage::read_state(const HdfReader& file) {
-  const std::vector<std::int64_t> steps = file.integers("March/step", 2);
+  const std::vector<std::int64_t> steps = file.integers("March/step", 3);
   step_ = static_cast<long>(steps[0]);
-  const std::vector<double> times = file.doubles("March/times", 6);
+  next_trial_ = static_cast<long>(steps[2]);
+  const std::vector<double> times = file.doubles("March/times", 3);
   now_ = times[0];
-  positions_at_ = times[1];
-  steps_ = {static_cast<long>(steps[1]), times[2]};
-  step_error_ = {times[3], times[4]};
-  error_memory_ = times[5];
+  steps_ = {static_cast<long>(steps[1]), times[1]};
+  early_difference_ = times[2];
+  step_error_ = StepError::from_row(file.doubles("March/step_error", 5));
+  trial_.reset();
+  if (const std::vector<double> row = file.doubles("March/trial"); !row.empty()) trial_ = StepTrial::from_row(row);
   cells_at_floor_ = file.integers("March/cells_at_floor", 1)[0];
   held_back_ = foam_.rank() == 0 ? file.integers("March/held_back", 1)[0] : 0;
   ledger_ = Ledger::from_row(file.doubles("March/ledger"));
@@ -43,14 +46,15 @@ void TracerStage::read_state(const HdfReader& file) {
   steady_.restore(file.doubles("March/steady"));
   if (windows_) windows_->restore(file.doubles("March/windows"));
   tracers_ = from_rows(file.doubles("March/tracers"), campaign_.heat.has_value(), foam_.rank(), foam_.ranks());
-  if (insertion_) insertion_->restore(file.doubles("Insertion/owed"), file.integers("Insertion/next_id", 1)[0]);
+  if (insertion_) insertion_->restore({file.doubles("Insertion/owed"), file.integers("Insertion/entered")});
   if (gas_) gas_->restore(file);
 }
 
 void TracerStage::write_state(HdfWriter& file, const std::vector<double>& all_tracer_rows) const {
-  file.write("March/step", std::vector<std::int64_t>{step_, steps_.count});
-  file.write("March/times", std::vector<double>{now_, positions_at_, steps_.length, step_error_.pair,
-                                                step_error_.seconds, error_memory_});
+  file.write("March/step", std::vector<std::int64_t>{step_, steps_.count, next_trial_});
+  file.write("March/times", std::vector<double>{now_, steps_.length, early_difference_});
+  file.write("March/step_error", step_error_.row());
+  file.write("March/trial", trial_ ? trial_->row() : std::vector<double>{});
   file.write("March/cells_at_floor", std::vector<std::int64_t>{cells_at_floor_});
   file.write("March/held_back", std::vector<std::int64_t>{held_back_});
   file.write("March/ledger", ledger_.row());
@@ -59,8 +63,8 @@ void TracerStage::write_state(HdfWriter& file, const std::vector<double>& all_tr
   if (windows_) file.write("March/windows", windows_->row());
   file.write("March/tracers", all_tracer_rows, tracer_columns);
   if (insertion_) {
-    file.write("Insertion/owed", insertion_->owed());
-    file.write("Insertion/next_id", std::vector<std::int64_t>{insertion_->next_id()});
+    file.write("Insertion/owed", insertion_->state().owed);
+    file.write("Insertion/entered", insertion_->state().entered);
   }
   if (gas_) gas_->save(file);
 }

@@ -9,7 +9,7 @@
 namespace cupola {
 namespace {
 
-constexpr long steps_between_sorting = 10;
+constexpr long steps_between_sorting = 5;
 
 }  // namespace
 
@@ -21,17 +21,16 @@ void TracerStage::step() {
 
 void TracerStage::advance(double seconds) {
   if (step_ % steps_between_sorting == 0) tracers_.sort_by_cell(mesh_.cells());
-  // The half step that ends the step before and the one that begins this one are one movement.
-  move(now_ + 0.5 * seconds);
-  compose();
   if (campaign_.tracer.displacement != TracerSettings::Displacement::none) displace_tracers(seconds);
+  Motion::Moved moved = move(seconds);
+  compose(moved.stays);
   if (gas_) {
     const auto running = clock_.measure("flow");
     gas_->follow(bed_);
   }
-  if (campaign_.heat) exchange_heat(seconds);
+  if (campaign_.heat) exchange_heat(moved);
   average(seconds);
-  if (campaign_.heat) remove_molten(tracers_, campaign_, local_tally_);
+  remove_leaving(tracers_, moved.leaving, campaign_, local_tally_);
   now_ += seconds;
 }
 
@@ -39,6 +38,7 @@ void TracerStage::displace_tracers(double seconds) {
   const TracerSettings& settings = campaign_.tracer;
   const bool random = settings.displacement != TracerSettings::Displacement::relaxation;
   const bool relaxes = settings.displacement != TracerSettings::Displacement::random;
+  contents_ = sum_tracers(tracers_, campaign_.species.size(), mesh_.cells(), false, sum_);
   std::vector<double> packed(mesh_.cells(), 0.0);
   for (const auto& volume : contents_.volume) {
     for (std::size_t c = 0; c < packed.size(); ++c) packed[c] += volume[c];
@@ -48,29 +48,28 @@ void TracerStage::displace_tracers(double seconds) {
   held_back_ += displace(tracers_, settings, locator_, paths_, field_.bed, excess, seconds, task_.random_seed, step_,
                          relaxes ? relaxation(mesh_, displaced_, packed, field_.solids_fraction, settings, seconds)
                                  : std::vector<Vector3>{});
-  compose();
 }
 
-void TracerStage::move(double to) {
+Motion::Moved TracerStage::move(double seconds) {
   const auto running = clock_.measure("motion");
-  const double from = positions_at_;
-  positions_at_ = to;
-  std::vector<Entry> entries = insertion_ ? insertion_->advance(from, to) : std::vector<Entry>{};
+  const double to = now_ + seconds;
+  std::vector<Entry> entries = insertion_ ? insertion_->advance(now_, to) : std::vector<Entry>{};
   std::erase_if(entries, [&](const Entry& entry) { return rank_of(entry.id, foam_.ranks()) != foam_.rank(); });
-  motion_.advance(tracers_, from, to, entries, task_.random_seed, local_tally_);
+  return motion_.advance(tracers_, now_, to, entries, task_.random_seed, local_tally_);
 }
 
-void TracerStage::compose() {
+void TracerStage::compose(const Stays& stays) {
   const auto running = clock_.measure("projection");
-  contents_ = sum_tracers(tracers_, campaign_.species.size(), mesh_.cells(), campaign_.heat.has_value(), sum_);
+  contents_ = sum_stays(tracers_, stays, campaign_.species.size(), mesh_.cells(), campaign_.heat.has_value(), sum_);
   bed_volume_ = bed_composition(mesh_, campaign_, field_, spread(contents_, kernel_), empty_share_);
   bed_ = bed_state(mesh_, campaign_, bed_volume_);
   cells_at_floor_ = std::max(cells_at_floor_, bed_.cells_at_floor);
 }
 
-void TracerStage::exchange_heat(double seconds) {
-  ledger_.walls += heat_.advance(tracers_, contents_, bed_volume_, bed_, gas_.get(), seconds);
+void TracerStage::exchange_heat(Motion::Moved& moved) {
+  ledger_.walls += heat_.advance(tracers_, moved.stays, contents_, bed_volume_, bed_, gas_.get(), moved.leaving);
   if (!gas_) return;
+  const double seconds = moved.stays.step();
   const GasEnergy::Ledger& gas = gas_->energy_ledger();
   ledger_.blast += gas.blast * seconds;
   ledger_.top_gas += gas.top_gas * seconds;

@@ -28,6 +28,7 @@ BedFlow::State::State(FoamCase& foam, const BedMesh& bed_mesh, const Campaign& c
       gas(*campaign.scene.gas),
       model(which),
       openings(bed_mesh, geometry, gas),
+      closing(bed_mesh, [this](std::size_t face) { return openings.holds_pressure(face); }),
       resistance(bed_mesh, gas, campaign.drag),
       blast(openings.expected_blast()),
       usual_flux(blast / openings.outlet_area()),
@@ -219,8 +220,14 @@ void BedFlow::State::set_pressure() {
   }
 }
 
-void BedFlow::State::finish() {
+void BedFlow::State::close_mass() {
+  closing.close(start.face_mass_flux);
+  mass_flux = geometry.cell_vectors(mesh, start.face_mass_flux);
+}
+
+void BedFlow::State::finish(const BedState& bed, const std::vector<double>& gas_temperature) {
   set_pressure();
+  solved_for = {bed, gas_temperature};
   const auto flows = openings.mass_flow(start.face_mass_flux);
   for (std::size_t i = 0; i < flows.size(); ++i) {
     if (flows[i] > 0 || openings.inlets()[i].given != Inlet::Given::pressure) continue;
@@ -229,6 +236,14 @@ void BedFlow::State::finish() {
                                                      openings.inlets()[i].name, openings.inlets()[i].pressure))
         .at("key", "scene.gas.inlets");
   }
+}
+
+void BedFlow::State::derive() {
+  if (!solved_for) return;
+  const Solved solved = *std::move(solved_for);
+  solved_for.reset();
+  set_static_temperature(solved.gas_temperature);
+  set_resistances(solved.bed);
   set_gradient();
   set_inertia();
 }

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "physics/equations/cell_equation.hpp"
+#include "physics/equations/closing_tree.hpp"
 #include "physics/equations/face_geometry.hpp"
 #include "physics/gas/bed_gas.hpp"
 #include "physics/gas/drag_tangent.hpp"
@@ -27,9 +29,13 @@ struct BedFlow::State {
   void follow_openings();
   /// What the inlets blow, by the present fluxes.
   void count_blast();
-  /// Pressure, its gradient and what inertia is to drag, from the last step.
+  /// Makes the mass fluxes of the last step conserve mass to round-off.
+  void close_mass();
   void set_pressure();
-  void finish();
+  /// Pressures, and what is derived only where it is asked for.
+  void finish(const BedState& bed, const std::vector<double>& gas_temperature);
+  /// Pressure at faces, its gradient and what inertia is to drag, of the last solution.
+  void derive();
 
   const BedMesh& mesh;
   FaceGeometry geometry;
@@ -37,6 +43,7 @@ struct BedFlow::State {
   Gas gas;
   Model model;
   Openings openings;
+  ClosingTree closing;
   DragTangents resistance;
 
   double blast = 0;       ///< kg/s
@@ -53,6 +60,11 @@ struct BedFlow::State {
   MomentumTerms momentum;
   std::vector<Vector3> carried_velocity;  ///< m/s, interstitial, relaxed
 
+  struct Solved {
+    BedState bed;
+    std::vector<double> gas_temperature;
+  };
+  std::optional<Solved> solved_for;  ///< what the last solution was for, until its consequences are derived
   std::vector<double> pressure, face_pressure, inertia;
   std::vector<Vector3> gradient;
   double inertia_largest = 0;

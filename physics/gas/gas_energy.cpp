@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "physics/closures/enthalpy_zero.hpp"
@@ -54,8 +53,6 @@ struct GasEnergy::State {
       first_guess = std::max(first_guess, inlet.total_temperature);
     }
     temperature.assign(mesh.cells(), first_guess > 0 ? first_guess : enthalpy_zero);
-    order.resize(mesh.cells());
-    std::iota(order.begin(), order.end(), 0);
     wall_share.assign(mesh.cells(), 0);
   }
 
@@ -72,7 +69,7 @@ struct GasEnergy::State {
   /// The balance in terms of the temperature with which the gas leaves a cell.
   [[nodiscard]] EnergyBalance balance_of(const BedFlow& flow, const BedState& bed, Partners& partners) const;
   [[nodiscard]] Partners partners_of(const SolidsExchange& exchange) const;
-  void put_in_order(const std::vector<double>& pressure);
+  void put_in_order(const EnergyBalance& balance, const std::vector<double>& face_flux);
   void correct(const EnergyBalance& balance, double tolerance, double acceptable);
   [[nodiscard]] double wall_conductance(std::size_t face) const {
     return heat_loss->coefficient * geometry.area[face] * wall_share[mesh.face_owner[face]];
@@ -86,7 +83,8 @@ struct GasEnergy::State {
   std::optional<WallHeatLoss> heat_loss;
   std::vector<double> inlet_temperature;  ///< K, on the inlets' faces
   std::vector<double> temperature;        ///< K
-  std::vector<std::int64_t> order;        ///< cells, the pressure falling
+  std::vector<std::int64_t> order;        ///< cells, each after those its gas comes from
+  std::vector<double> ordered_flux;       ///< kg/s, face fluxes that the order belongs to
   std::vector<double> wall_share;
   Ledger ledger;
 };
@@ -163,9 +161,36 @@ EnergyBalance GasEnergy::State::balance_of(const BedFlow& flow, const BedState& 
   return balance;
 }
 
-void GasEnergy::State::put_in_order(const std::vector<double>& pressure) {
-  const auto before = [&](std::int64_t a, std::int64_t b) { return pressure[a] > pressure[b]; };
-  if (!std::is_sorted(order.begin(), order.end(), before)) std::stable_sort(order.begin(), order.end(), before);
+/// Depth first against the flow, so that a cell comes after all that its gas comes from; where gas goes in circles,
+/// after all but one.  Neighbours along the flow are neighbours in the order and mostly in memory.
+void GasEnergy::State::put_in_order(const EnergyBalance& balance, const std::vector<double>& face_flux) {
+  if (face_flux == ordered_flux) return;
+  ordered_flux = face_flux;
+  order.clear();
+  std::vector<bool> reached(mesh.cells(), false);
+  struct Open {
+    std::int64_t cell;
+    std::size_t next_side;
+  };
+  std::vector<Open> way;
+  for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
+    if (reached[cell]) continue;
+    reached[cell] = true;
+    way.push_back({static_cast<std::int64_t>(cell), 0});
+    while (!way.empty()) {
+      Open& here = way.back();
+      const auto& sides = balance.sides[here.cell];
+      if (here.next_side == sides.size()) {
+        order.push_back(here.cell);
+        way.pop_back();
+        continue;
+      }
+      const auto& side = sides[here.next_side++];
+      if (side.beside < 0 || side.inflow <= 0 || reached[side.beside]) continue;
+      reached[side.beside] = true;
+      way.push_back({side.beside, 0});
+    }
+  }
 }
 
 /// Where sweeps are slow (gas that goes in circles, conduction alone): Newton's method with OpenFOAM's solver.
@@ -215,7 +240,7 @@ const std::vector<double>& GasEnergy::solve(const BedFlow& flow, const BedState&
   state.set_wall_share(bed);
   Partners partners = state.partners_of(exchange);
   const EnergyBalance balance = state.balance_of(flow, bed, partners);
-  state.put_in_order(flow.pressure());
+  state.put_in_order(balance, face_flux);
 
   GasEnergy::Ledger ledger;
   for (const double value : balance.given_enthalpy) ledger.blast += value;

@@ -241,12 +241,33 @@ double PathField::pseudo_time(std::size_t number, const Vector3& reference, cons
 
 template <typename Visit>
 PathField::End PathField::follow(Point& point, double seconds, const Visit& visit) const {
+  // Sets the rates of the exit; whether the path cannot reach a face within a pseudo-time.
+  const auto stays_inside = [](const Cell& cell, const Vector3& reference, double pseudo, Exit& exit) {
+    bool inside = pseudo > 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double change = cell.change[axis];
+      const double rate = cell.flux[axis] + change * reference[axis];
+      exit.rate[axis] = rate;
+      // The rate on the way to the face ahead is between that here and that at the face.
+      const double upwards = std::max(rate, cell.flux[axis] + change) * pseudo;
+      const double downwards = -std::min(rate, cell.flux[axis]) * pseudo;
+      inside = inside && (rate > 0 ? upwards < 1 - reference[axis] : downwards < reference[axis]);
+    }
+    exit.pseudo = pseudo;
+    return inside;
+  };
   double left = seconds;
   int idle_crossings = 0;
   while (left > 0) {
     const std::size_t number = index(point.cell);
     const Cell& cell = cells_[number];
-    Exit exit = look_ahead(cell, point.reference);
+    Exit exit;
+    // No more pseudo-time than this is left.
+    const double most =
+        cell.linear_volume ? left / (cell.storage_volume + std::min(0.0, cell.storage_volume_change)) : 0;
+    // Most stays end inside the cell, which shows at once.
+    const bool inside = stays_inside(cell, point.reference, most, exit);
+    if (!inside) exit = look_ahead(cell, point.reference);
     const bool stands = exit.rate[0] == 0 && exit.rate[1] == 0 && exit.rate[2] == 0;
     if (stands || idle_crossings > most_idle_crossings) {
       fallbacks_ += stands ? 0 : 1;
@@ -254,10 +275,8 @@ PathField::End PathField::follow(Point& point, double seconds, const Visit& visi
       return End::stagnant;
     }
     double to_exit = never;
-    const double smallest_volume =
-        cell.linear_volume ? cell.storage_volume + std::min(0.0, cell.storage_volume_change) : 0;
-    // Most stays end inside the cell, which shows without a logarithm.
-    if (!(exit.least[exit.first] * smallest_volume > left)) {
+    // Many more show without a logarithm.
+    if (!inside && !(cell.linear_volume && exit.least[exit.first] > most)) {
       find_exit(cell, exit);
       if (exit.pseudo < never) to_exit = elapsed(number, point.reference, exit.rate, exit.pseudo);
     }
@@ -287,9 +306,10 @@ PathField::End PathField::advance(Point& point, double seconds, void (*residence
   return follow(point, seconds, [&](std::int64_t cell, double stay) { residence(context, cell, stay); });
 }
 
-PathField::End PathField::advance(Point& point, double seconds, const std::vector<double>& rate,
-                                  double& integral) const {
-  return follow(point, seconds, [&](std::int64_t cell, double stay) { integral += stay * rate[index(cell)]; });
+PathField::End PathField::advance(Point& point, double seconds, std::vector<Stay>& stays) const {
+  return follow(point, seconds, [&](std::int64_t cell, double stay) {
+    stays.push_back({static_cast<std::int32_t>(cell), stay});
+  });
 }
 
 double PathField::lowest(std::int64_t cell) const {

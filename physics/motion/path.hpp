@@ -29,6 +29,11 @@ class PathField {
     std::int64_t cell = -1;
     Vector3 reference{};  ///< in [0,1]^3
   };
+  /// A part of a path, inside one cell.
+  struct Stay {
+    std::int32_t cell = -1;
+    double seconds = 0;
+  };
   /// Where a path ended.
   enum class End { time_up, left_through_outflow, stagnant };
 
@@ -43,9 +48,8 @@ class PathField {
   End advance(Point& point, double seconds, void (*residence)(void*, std::int64_t, double) = nullptr,
               void* context = nullptr) const;
 
-  /// Moves the point as above and adds the integral of `rate` (a value a cell, 1/s) over the time of the path to
-  /// `integral`.
-  End advance(Point& point, double seconds, const std::vector<double>& rate, double& integral) const;
+  /// Moves the point as above and appends its stays.
+  End advance(Point& point, double seconds, std::vector<Stay>& stays) const;
 
   /// Height of the lowest corner of a cell, m.
   [[nodiscard]] double lowest(std::int64_t cell) const;

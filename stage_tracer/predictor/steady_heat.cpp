@@ -72,7 +72,7 @@ class SteadyHeat::Evaluation {
         sweep_(mesh_, campaign_, bed.field.charge.volume_share),
         filling_(share_of_persistent(campaign_, bed.field.charge)),
         contents_(std::move(contents)) {
-    exchange_.set_rates({gas.flow().mass_flux(), gas.temperature(), bed.state.void_fraction}, contents_, 0);
+    exchange_.set_rates({gas.flow().mass_flux(), gas.temperature(), bed.state.void_fraction}, contents_);
     rate_ = exchange_.felt_coefficient();
     for (std::size_t s = 0; s < rate_.size(); ++s) {
       for (double& rate : rate_[s]) rate *= 6 / (campaign_.species[s].diameter * sweep_.capacity()[s]);
@@ -95,7 +95,7 @@ class SteadyHeat::Evaluation {
     solids_ = sweep_(bed_.lines, bed_.packing, bed_.sink, around, sum_);
     rest_where_nothing_passes(around);
     contents_ = solids_.contents;
-    gas_.solve_energy(bed_.state, exchange_.solids(contents_));
+    gas_.solve_energy(bed_.state, exchange_.solids(contents_, 0));
     BedTemperatures result{gas_.temperature(), contents_.temperature};
     for (std::size_t s = 0; s < result.solids.size(); ++s) {
       for (std::size_t c = 0; c < result.gas.size(); ++c) {

@@ -108,25 +108,48 @@ TEST(SteadyWatch, LeavesOutCellsWithoutCapacityAndSurvivesACheckpoint) {
   EXPECT_EQ(watch.windows(), 77U);
 }
 
-Tracers three(double a, double b, double c) {
-  Tracers tracers;
-  for (std::int64_t id = 0; id < 3; ++id) tracers.add(3 - id, 0, {}, 1e-3, 1);
-  tracers.temperature = {a, b, c};
-  return tracers;
+SolidsState three(double a, double b, double c) {
+  SolidsState state;
+  state.capacity = {1, 1, 0};
+  state.temperature = {a, b, c};
+  return state;
 }
 
-TEST(StepError, ComparesTracersByIdAndScalesWithTheStep) {
+TEST(StepError, ComparesCellsByTheirHeat) {
+  EXPECT_NEAR(temperature_difference(three(1003, 893, 493), three(993, 893, 293)),
+              std::sqrt(100.0 / (700 * 700 + 600 * 600)), 1e-12);
   Campaign campaign = furnaces::shaft();
-  campaign.species[0].heat_capacity = 800;
-  const TracerTemperatures one(three(1003, 893, 493));
-  Tracers other = three(993, 893, 493);
-  other.id[2] = 7;  // a tracer that the first does not have counts in neither
-  const double difference = temperature_difference(one, other, campaign, [](std::vector<double>&) {});
-  EXPECT_NEAR(difference, std::sqrt(100.0 / (700 * 700 + 600 * 600)), 1e-12);
+  for (Species& species : campaign.species) species.heat_capacity = 800;
+  const SolidsState state({{{1e-3, 0}, {2e-3, 0}}, {{900, 0}, {600, 0}}}, campaign);
+  const double coke = 1e-3 * campaign.species[0].density;
+  const double ore = 2e-3 * campaign.species[1].density;
+  EXPECT_NEAR(state.capacity[0], 800 * (coke + ore), 1e-9);
+  EXPECT_NEAR(state.temperature[0], (900 * coke + 600 * ore) / (coke + ore), 1e-9);
+  EXPECT_EQ(state.capacity[1], 0);
+}
 
-  const StepError error{0.002, 10};
-  EXPECT_DOUBLE_EQ(error.after(100, 1e9), 0.01);
-  EXPECT_DOUBLE_EQ(error.after(100, 50), 0.005);
+TEST(StepError, GrowsAsItWasSeenToGrow) {
+  // Differences after 20 s and 80 s, of steps of 10 s.
+  const StepError adds_up{10, 0.001, 0.004, 80, 1e9};
+  EXPECT_DOUBLE_EQ(adds_up.growth(), 1);
+  EXPECT_NEAR(adds_up.after(800, 10), 0.04, 1e-12);
+  EXPECT_NEAR(adds_up.after(800, 5), 0.02, 1e-12);
+  const StepError random{10, 0.001, 0.002, 80, 320};
+  EXPECT_DOUBLE_EQ(random.growth(), 0.5);
+  EXPECT_NEAR(random.after(1e6, 10), 0.004, 1e-12);  // what is older than the memory is forgotten
+  EXPECT_NEAR(random.after(10, 10), 0.002, 1e-12);   // never below what was seen
+  EXPECT_EQ((StepError{10, 0.001, 0.0005, 80, 320}).growth(), 0.5);
+  EXPECT_FALSE(StepError{}.known());
+  EXPECT_EQ(StepError{}.after(100, 10), 0);
+  EXPECT_EQ(StepError::from_row(random.row()).row(), random.row());
+}
+
+TEST(StepTrial, SurvivesACheckpoint) {
+  const StepTrial trial{4, 3, three(1, 2, 3), three(4, 5, 6)};
+  const StepTrial again = StepTrial::from_row(trial.row());
+  EXPECT_EQ(again.row(), trial.row());
+  EXPECT_EQ(again.pairs, 3);
+  EXPECT_EQ(again.late.temperature, trial.late.temperature);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "stage_tracer/motion.hpp"
 #include "stage_tracer/random.hpp"
 #include "stage_tracer/seeding.hpp"
+#include "stage_tracer/stays.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/furnaces.hpp"
 
@@ -152,7 +153,10 @@ TEST_F(TracersTest, RacewayRemovesAtItsRateForAnyStep) {
     Tracers tracers;
     for (std::int64_t id = 0; id < count; ++id) tracers.add(id, 0, {7, {0.5, 0.5, 0.5}}, 1e-4, draw_life(3, id));
     Tally tally;
-    for (double time = 0; time < 40; time += step) motion.advance(tracers, time, time + step, {}, 3, tally);
+    for (double time = 0; time < 40; time += step) {
+      const Leaving leaving = motion.advance(tracers, time, time + step, {}, 3, tally).leaving;
+      remove_leaving(tracers, leaving, campaign_, tally);
+    }
     const double expected = count * std::exp(-0.8);
     EXPECT_NEAR(static_cast<double>(tracers.size()), expected, 4 * std::sqrt(expected * (1 - std::exp(-0.8))));
     EXPECT_NEAR(tally.of(tally.mass, Cause::raceway), (count - static_cast<double>(tracers.size())) * 1e-4 * 800, 1e-8);
@@ -173,7 +177,8 @@ TEST_F(TracersTest, MeltingSpeciesTooLowIsCountedAsUnmelted) {
   for (std::int64_t id = 0; id < 4; ++id)
     tracers.add(id, static_cast<std::uint8_t>(id % 2), {id < 2 ? 0 : 100, {0.5, 0.5, 0.5}}, 1e-3, 1);
   Tally tally;
-  Motion(campaign_, field, paths).advance(tracers, 0, 1, {}, 3, tally);
+  remove_leaving(tracers, Motion(campaign_, field, paths).advance(tracers, 0, 1, {}, 3, tally).leaving, campaign_,
+                 tally);
   EXPECT_EQ(tracers.id, (std::vector<std::int64_t>{0, 2, 3}));
   EXPECT_DOUBLE_EQ(tally.of(tally.mass, Cause::unmelted), 3);
 }

@@ -56,7 +56,8 @@ class PlaneFlow {
     const Motion motion(campaign_, field, paths);
     Tally tally;
     for (int k = 0; k < steps; ++k) {
-      motion.advance(tracers, k * seconds / steps, (k + 1) * seconds / steps, {}, 1, tally);
+      const auto moved = motion.advance(tracers, k * seconds / steps, (k + 1) * seconds / steps, {}, 1, tally);
+      remove_leaving(tracers, moved.leaving, campaign_, tally);
     }
     EXPECT_EQ(tracers.size(), points.size()) << "tracers were lost";
     std::vector<Vector3> result;
