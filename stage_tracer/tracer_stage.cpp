@@ -194,7 +194,7 @@ void TracerStage::begin_gas() {
       heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, bed_, *gas_);
       compose(Stays(tracers_, 1));
     }
-    gas_->improve_flow(bed_, settling_tolerance, settling_iterations);
+    gas_->improve_flow(bed_, gas_->temperature(), settling_tolerance, settling_iterations);
     double change = 0;
     for (std::size_t c = 0; c < before.size(); ++c)
       change = std::max(change, std::abs(gas_->temperature()[c] - before[c]));
