@@ -65,14 +65,16 @@ void TracerStage::write_output(bool checkpoint_now, bool last) {
 nlohmann::json TracerStage::history_line() const {
   nlohmann::json line = {{"step", step_}, {"time", now_}, {"tracers", all_tracers_}, {"wall_seconds", wall_seconds()}};
   if (!campaign_.heat) return line;
+  // `contents_` are means over the step.
+  const CellContents contents = sum_tracers(tracers_, campaign_.species.size(), mesh_.cells(), true, sum_);
   if (step_error_.seconds > 0) line["time_step_error"] = step_error_.after(now_, steps_.length);
-  line["mean_solid_temperature"] = mean_temperature(contents_, campaign_);
+  line["mean_solid_temperature"] = mean_temperature(contents, campaign_);
   if (gas_) {
     line["top_gas_temperature"] = gas_->energy_ledger().top_gas_temperature;
     line["gas_energy_residual"] = gas_->energy_ledger().residual;
   }
   if (can_melt(campaign_)) {
-    const CellContents around = spread(contents_, kernel_);
+    const CellContents around = spread(contents, kernel_);
     const double height =
         find_melting_zone(mesh_, campaign_, field_, around.volume, around.temperature).melted.height_mean;
     line["cohesive_zone_height"] = std::isfinite(height) ? nlohmann::json(height) : nlohmann::json(nullptr);

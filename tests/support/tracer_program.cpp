@@ -57,6 +57,7 @@ pid_t TracerProgram::start() const {
   if (child != 0) return child;
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);  // as `cupola run` starts it
   const std::string count = std::to_string(ranks_);
   const std::string folder = path().string();
   if (ranks_ == 1) {
