@@ -10,9 +10,9 @@ namespace cupola {
 namespace {
 
 /// What the linear equation of the last iteration may leave of the mass balance (of the blast, summed over all cells),
-/// by the tolerance asked for: loose solutions only to a hundredth of it, tight ones to round-off, so that they do not
+/// by the tolerance asked for: loose solutions only to a thousandth of it, tight ones to round-off, so that they do not
 /// depend on the number of ranks.  What is left over is closed along a tree.
-double last_mass_tolerance(double tolerance) { return tolerance * std::min(1e-2, 10 * tolerance); }
+double last_mass_tolerance(double tolerance) { return tolerance * std::min(1e-3, 10 * tolerance); }
 /// Iterations before the last one: to this share of the last change, for what is not yet right need not be exact.
 constexpr double loose_mass_tolerance = 1e-2;
 constexpr double least_mass_tolerance = 3e-11;

@@ -62,7 +62,7 @@ TEST(Ranks, OneTwoAndThreeGiveTheSame) {
   }
 }
 
-// By default the flow is solved to a hundredth of the accuracy asked for, on each decomposition in its own way.
+// By default the flow is solved to a thousandth of the accuracy asked for, on each decomposition in its own way.
 TEST(Ranks, LooseSolutionsDifferByLessThanTheAccuracyAllows) {
   Campaign campaign = tiny();
   campaign.tracer.resolve = TracerSettings::Resolve::automatic;
