@@ -203,13 +203,21 @@ Conduction::Result Conduction::advance(const CellContents& contents, const BySpe
   Result result;
   result.iterations = solve_network(network, diagonal, source, temperature, step_tolerance);
   const std::vector<double> inflow = network_inflow(network, temperature);
+  std::vector<double> conductance = wall;
+  for (const Link& link : network) {
+    conductance[link.first] += link.conductance;
+    conductance[link.second] += link.conductance;
+  }
   result.change.assign(species, std::vector<double>(cells, 0.0));
+  result.damping = result.change;
   for (std::size_t i = 0; i < inflow.size(); ++i) {
     const double holds = capacity[i / cells][i % cells];
     if (holds <= 0) continue;
     const double lost = wall[i] * (temperature[i] - outside);
     result.walls += lost * step;
     result.change[i / cells][i % cells] = (inflow[i] - lost) * step / holds;
+    const double stiffness = conductance[i] * step / holds;
+    result.damping[i / cells][i % cells] = std::max(0.0, (stiffness - 1) / (stiffness + 1));
   }
   return result;
 }

@@ -29,11 +29,17 @@ class Conduction {
              std::vector<double> recipe_share);
 
   struct Result {
-    BySpecies change;  ///< K, [species][cell], of the spread mean temperatures
-    double walls = 0;  ///< J, lost to the walls
+    BySpecies change;   ///< K, [species][cell], of the spread mean temperatures
+    BySpecies damping;  ///< of each place: share of its distance from the mean that a tracer there must give up
+    double walls = 0;   ///< J, lost to the walls
     int iterations = 0;
   };
-  /// @param contents spread  @param capacity J/K, [species][cell], spread with the same kernel
+  /// The damping is (x - 1)/(x + 1) where x, the place's conductance times the step over its heat capacity, exceeds 1,
+  /// else 0.  A tracer whose temperature changes by change + damping (mean - own) stays between the temperatures that
+  /// conduct to it where x is large, whatever its own; where x is small it keeps its distance from the mean, as grains
+  /// do.
+  /// @param contents spread, each with its heat capacity  @param capacity J/K, [species][cell], spread with the same
+  /// kernel
   /// @param bed_volume m3, [species][cell] (bed_composition)  @param step s
   [[nodiscard]] Result advance(const CellContents& contents, const BySpecies& capacity, const BySpecies& bed_volume,
                                double step) const;

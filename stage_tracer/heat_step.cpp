@@ -63,75 +63,135 @@ void HeatStep::take_along_paths(const Tracers& tracers, const Stays& stays, BySp
   }
 }
 
+void HeatStep::convect_along_paths(const Tracers& tracers, const Stays& stays, const BySpecies& capacity,
+                                   const BySpecies& felt, CellContents& contents) {
+  const std::size_t species = capacity.size();
+  const std::size_t cells = capacity.front().size();
+  std::vector<double> sums(species * cells, 0.0);
+  const double inverse_step = 1 / stays.step();
+  for (std::size_t i = 0; i < tracers.size(); ++i) {
+    const std::size_t s = tracers.species[i];
+    const std::span<const Stays::Stay> path = stays.of(i);
+    const double* const approach = approach_.data() + stays.first(i);
+    const double old = tracers.temperature[i];
+    Convected& convected = convected_[i];
+    convected = {0, old};
+    for (std::size_t j = 0; j < path.size(); ++j) {
+      const auto c = static_cast<std::size_t>(path[j].cell);
+      const double warmed = approach[j] * (felt[s][c] - old);
+      convected.temperature += warmed;
+      convected.heat += capacity[s][c] * warmed;
+    }
+    const double weighted = tracers.volume[i] * inverse_step * convected.temperature;
+    for (const Stays::Stay& stay : path)
+      sums[s * cells + static_cast<std::size_t>(stay.cell)] += weighted * stay.seconds;
+  }
+  sum_(sums);
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      if (contents.volume[s][c] > 0) contents.temperature[s][c] = sums[s * cells + c] / contents.volume[s][c];
+    }
+  }
+}
+
+Conduction::Result HeatStep::conduct(const CellContents& contents, const BySpecies& bed_volume,
+                                     const BySpecies& capacity, double step) const {
+  const std::size_t species = capacity.size();
+  const std::size_t cells = capacity.front().size();
+  CellContents around = contents;
+  BySpecies spread_capacity = capacity;
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      spread_capacity[s][c] *= contents.volume[s][c];
+      around.temperature[s][c] *= spread_capacity[s][c];
+    }
+  }
+  std::vector<std::vector<double>*> together = pointers(spread_capacity);
+  for (BySpecies* const part : {&around.volume, &around.temperature}) {
+    for (auto& values : *part) together.push_back(&values);
+  }
+  kernel_.apply(together);
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      double& mean = around.temperature[s][c];
+      mean = spread_capacity[s][c] > 0 ? mean / spread_capacity[s][c] : 0;
+    }
+  }
+  Conduction::Result conducted = conduction_.advance(around, spread_capacity, bed_volume, step);
+  BySpecies& change = conducted.change;
+  BySpecies& damping = conducted.damping;
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) change[s][c] += damping[s][c] * around.temperature[s][c];
+  }
+  together = pointers(change);
+  for (auto& values : damping) together.push_back(&values);
+  kernel_.gather(together);
+  return conducted;
+}
+
+void HeatStep::convect(const Tracers& tracers, const Stays& stays, CellContents& contents, const BedState& bed,
+                       GasModel& gas, const BySpecies& capacity) {
+  const std::size_t species = capacity.size();
+  const std::size_t cells = capacity.front().size();
+  auto running = std::make_optional<PartClock::Running>(clock_, "exchange on cells");
+  exchange_.set_rates(fields_of(gas, bed), contents);
+  largest_biot_ = exchange_.largest_biot();
+  running.emplace(clock_, "exchange");
+  BySpecies taken(species, std::vector<double>(cells));
+  BySpecies taken_temperature = taken;
+  take_along_paths(tracers, stays, taken, taken_temperature);
+  running.emplace(clock_, "exchange on cells");
+  BySpecies conductance = taken;
+  BySpecies conductance_temperature = taken_temperature;
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      conductance[s][c] *= capacity[s][c] / stays.step();
+      conductance_temperature[s][c] *= capacity[s][c] / stays.step();
+    }
+  }
+  const SolidsExchange solids = exchange_.seen_by_gas(std::move(conductance), std::move(conductance_temperature));
+  running.emplace(clock_, "gas energy");
+  gas.solve_energy(bed, solids);
+  running.emplace(clock_, "exchange on cells");
+  const BySpecies felt = exchange_.felt_temperature(gas.temperature());
+  running.emplace(clock_, "exchange");
+  convect_along_paths(tracers, stays, capacity, felt, contents);
+}
+
 double HeatStep::advance(Tracers& tracers, const Stays& stays, CellContents& contents, const BySpecies& bed_volume,
                          const BedState& bed, GasModel* gas, Leaving& leaving) {
   const std::size_t species = contents.volume.size();
   const std::size_t cells = contents.volume.front().size();
-  const double step = stays.step();
+  const BySpecies before = contents.temperature;
   // Heat capacities as at the beginning of the step: the same for gas, neighbours and tracers.
   BySpecies capacity(species);
-  BySpecies spread_capacity(species);
-  for (std::size_t s = 0; s < species; ++s) {
+  for (std::size_t s = 0; s < species; ++s)
     capacity[s] = volumetric_heat_capacity(campaign_.species[s], contents.temperature[s]);
-    spread_capacity[s] = capacity[s];
-    for (std::size_t c = 0; c < cells; ++c) spread_capacity[s][c] *= contents.volume[s][c];
-  }
-  kernel_.apply(pointers(spread_capacity));
-  const BySpecies before = contents.temperature;
-  BySpecies felt(species, std::vector<double>(cells, 0.0));
-  approach_.assign(stays.all().size(), 0.0);
+  convected_.resize(tracers.size());
   if (gas != nullptr) {
-    auto running = std::make_optional<PartClock::Running>(clock_, "exchange on cells");
-    exchange_.set_rates(fields_of(*gas, bed), contents);
-    largest_biot_ = exchange_.largest_biot();
-    running.emplace(clock_, "exchange");
-    BySpecies taken = felt;
-    BySpecies taken_temperature = felt;
-    take_along_paths(tracers, stays, taken, taken_temperature);
-    running.emplace(clock_, "exchange on cells");
-    BySpecies conductance = taken;
-    BySpecies conductance_temperature = taken_temperature;
-    for (std::size_t s = 0; s < species; ++s) {
-      for (std::size_t c = 0; c < cells; ++c) {
-        conductance[s][c] *= capacity[s][c] / step;
-        conductance_temperature[s][c] *= capacity[s][c] / step;
-      }
-    }
-    const SolidsExchange solids = exchange_.seen_by_gas(std::move(conductance), std::move(conductance_temperature));
-    running.emplace(clock_, "gas energy");
-    gas->solve_energy(bed, solids);
-    running.emplace(clock_, "exchange on cells");
-    felt = exchange_.felt_temperature(gas->temperature());
-    for (std::size_t s = 0; s < species; ++s) {
-      for (std::size_t c = 0; c < cells; ++c) {
-        if (contents.volume[s][c] > 0)
-          contents.temperature[s][c] += (taken[s][c] * felt[s][c] - taken_temperature[s][c]) / contents.volume[s][c];
-      }
-    }
+    convect(tracers, stays, contents, bed, *gas, capacity);
+  } else {
+    for (std::size_t i = 0; i < tracers.size(); ++i) convected_[i] = {0, tracers.temperature[i]};
   }
   auto running = std::make_optional<PartClock::Running>(clock_, "conduction");
-  Conduction::Result conducted = conduction_.advance(spread(contents, kernel_), spread_capacity, bed_volume, step);
-  BySpecies& shift = conducted.change;
-  kernel_.gather(pointers(shift));
+  const auto [change, damping, walls, iterations] = conduct(contents, bed_volume, capacity, stays.step());
   for (std::size_t s = 0; s < species; ++s) {
     for (std::size_t c = 0; c < cells; ++c) {
-      // The mean over the step.
-      if (contents.volume[s][c] > 0)
-        contents.temperature[s][c] = 0.5 * (before[s][c] + contents.temperature[s][c] + shift[s][c]);
+      double& mean = contents.temperature[s][c];
+      if (contents.volume[s][c] > 0) mean = 0.5 * (before[s][c] + mean + change[s][c] - damping[s][c] * mean);
     }
   }
   running.emplace(clock_, "exchange");
+  const double inverse_step = 1 / stays.step();
   for (std::size_t i = 0; i < tracers.size(); ++i) {
     const std::size_t s = tracers.species[i];
     const Species& material = campaign_.species[s];
-    const std::span<const Stays::Stay> path = stays.of(i);
-    const double* const approach = approach_.data() + stays.first(i);
     double& temperature = tracers.temperature[i];
     const double old = temperature;
-    double heat = 0;  // J/m3, at the capacities of the cells; that of the tracer itself may differ
-    for (std::size_t j = 0; j < path.size(); ++j) {
-      const auto c = static_cast<std::size_t>(path[j].cell);
-      heat += capacity[s][c] * (approach[j] * (felt[s][c] - old) + path[j].seconds / step * shift[s][c]);
+    double heat = convected_[i].heat;  // J/m3, at the capacities of the cells; that of the tracer itself may differ
+    for (const Stays::Stay& stay : stays.of(i)) {
+      const auto c = static_cast<std::size_t>(stay.cell);
+      heat += capacity[s][c] * stay.seconds * inverse_step * (change[s][c] - damping[s][c] * convected_[i].temperature);
     }
     if (constant_capacity_[s] > 0) {
       temperature += heat / constant_capacity_[s];
@@ -144,13 +204,13 @@ double HeatStep::advance(Tracers& tracers, const Stays& stays, CellContents& con
           fmt::format("the temperature of tracer {} became {} K; shorten tracer.time_step", tracers.id[i], temperature))
           .at("tracer", std::to_string(tracers.id[i]))
           .at("cell", std::to_string(tracers.point[i].cell))
-          .advise("tracer.time_step", fmt::format("{:.6g}", step / 2));
+          .advise("tracer.time_step", fmt::format("{:.6g}", stays.step() / 2));
     }
     // The end of a step that is nearest to when it melts: early as often as late.
     const double next = temperature + std::max(0.0, 0.5 * (temperature - old));
     if (material.softening && next >= material.softening->melted && !leaving[i]) leaving[i] = Cause::melted;
   }
-  return conducted.walls;
+  return walls;
 }
 
 double HeatStep::relaxation_time(const CellContents& contents) const {

@@ -16,6 +16,10 @@ namespace cupola {
 /// which is exact, and linear in the gas temperatures: the gas is solved with the conductance C a_j/dt, C the tracer's
 /// heat capacity.  So what it feels does not jump where it crosses from cell to cell, and is of second order in dt.
 ///
+/// Conduction is solved for the cells' means of the temperatures to which convection has brought the tracers; each
+/// takes the changes of the cells on its path in the proportions of its stays, damped where more is conducted in a step
+/// than a place holds (Conduction::Result).
+///
 /// A tracer takes heat as enthalpy: where heat capacities change with the temperature, or a species melts over a range,
 /// its new temperature is that of its new enthalpy.  It melts at the end of the step nearest to its melting
 /// temperature, half of a step's rise early or late.
@@ -50,8 +54,17 @@ class HeatStep {
   [[nodiscard]] const std::vector<double>& largest_biot() const { return largest_biot_; }
 
  private:
+  /// Solves the gas; sets what each tracer takes of it and the cells' means of the temperatures to which it does.
+  /// @param capacity J/m3/K, [species][cell]
+  void convect(const Tracers& tracers, const Stays& stays, CellContents& contents, const BedState& bed, GasModel& gas,
+               const BySpecies& capacity);
+  /// @return as a tracer in each cell feels it: it changes by change - damping x its own temperature
+  [[nodiscard]] Conduction::Result conduct(const CellContents& contents, const BySpecies& bed_volume,
+                                           const BySpecies& capacity, double step) const;
   /// Sets the a_j of all stays, and sums V a_j and V a_j T of all ranks in each cell, [species][cell].
   void take_along_paths(const Tracers& tracers, const Stays& stays, BySpecies& taken, BySpecies& taken_temperature);
+  void convect_along_paths(const Tracers& tracers, const Stays& stays, const BySpecies& capacity, const BySpecies& felt,
+                           CellContents& contents);
 
   const Campaign& campaign_;
   const CellSpreading& kernel_;
@@ -61,6 +74,11 @@ class HeatStep {
   Exchange exchange_;
   std::vector<double> constant_capacity_;  ///< J/m3/K, of each species; 0 where it changes with the temperature
   std::vector<double> approach_;           ///< a_j of the stays of the step
+  struct Convected {
+    double heat;         ///< J/m3
+    double temperature;  ///< K, with it
+  };
+  std::vector<Convected> convected_;  ///< of each tracer in the step
   std::vector<double> largest_biot_ = std::vector<double>(campaign_.species.size(), 0.0);
 };
 
