@@ -194,7 +194,12 @@ void TracerStage::begin_gas() {
       heat_.settle_stagnant(tracers_, contents_, bed_volume_, field_.stagnant, bed_, *gas_);
       compose(Stays(tracers_, 1));
     }
-    gas_->improve_flow(bed_, gas_->temperature(), settling_tolerance, settling_iterations);
+    if (campaign_.tracer.resolve == TracerSettings::Resolve::every_step) {
+      // The gas temperature keeps what a loose solution leaves to chance, and the bed remembers it for minutes.
+      gas_->solve_flow_tightly(bed_);
+    } else {
+      gas_->improve_flow(bed_, gas_->temperature(), settling_tolerance, settling_iterations);
+    }
     double change = 0;
     for (std::size_t c = 0; c < before.size(); ++c)
       change = std::max(change, std::abs(gas_->temperature()[c] - before[c]));
