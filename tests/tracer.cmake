@@ -35,7 +35,7 @@ function(cupola_tracer_verification name)
 endfunction()
 
 foreach(proof 01_single_grain 02_schumann 03_counter_current 04_conduction 05_ergun 06_displacement 08_coarse_graining
-              09_ranks 10_time_order 12_ledger)
+              09_ranks 10_time_order 11_gas_models 12_ledger)
   cupola_tracer_verification(proof_${proof})
 endforeach()
 cupola_tracer_verification(proof_07_motion cupola_tracer_parts cupola_box_mesh)

@@ -307,5 +307,42 @@ TEST_F(ConductionTest, SpeciesInLayersMeetThroughTheExchangeOfTheRecipe) {
   EXPECT_NEAR(change[1][7], step * exchange * difference / ore, 1e-5);
 }
 
+TEST_F(ConductionTest, NoTracerLeavesTheTemperaturesThatConductToItHoweverLittleItHolds) {
+  const Conduction conduction(mesh_, campaign_, bed_, thickness_, share_);
+  const CellContents contents = random_contents(mesh_);
+  const BySpecies whole = capacity_of(campaign_, contents);
+  double lowest = 1e9, highest = 0;
+  for (const auto& of_species : contents.temperature) {
+    for (const double mean : of_species) {
+      if (mean <= 0) continue;
+      lowest = std::min(lowest, mean);
+      highest = std::max(highest, mean);
+    }
+  }
+  for (const double part : {1.0, 1e-8}) {
+    BySpecies capacity = whole;
+    for (auto& of_species : capacity) {
+      for (double& value : of_species) value *= part;
+    }
+    const auto result = conduction.advance(contents, capacity, contents.volume, 100);
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t c = 0; c < mesh_.cells(); ++c) {
+        if (!(capacity[s][c] > 0)) continue;
+        const double damping = result.damping[s][c];
+        if (part == 1.0) {
+          EXPECT_EQ(damping, 0);  // so little conducted in a step: grains keep their distance from the mean
+          continue;
+        }
+        // The coldest and the hottest tracer there can be, in a cell of any mean.
+        for (const double own : {lowest, highest}) {
+          const double after = own + result.change[s][c] + damping * (contents.temperature[s][c] - own);
+          EXPECT_GT(after, lowest - 1);
+          EXPECT_LT(after, highest + 1);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cupola
