@@ -7,18 +7,18 @@ ROOT_MAY_RUN_MPI := $(if $(filter 0,$(shell id -u)),OMPI_ALLOW_RUN_AS_ROOT=1 OMP
 # What tests take says nothing about campaigns: no rates are kept.
 CTEST := $(ROOT_MAY_RUN_MPI) CUPOLA_RATES= ctest --output-on-failure -j $(JOBS)
 
-.PHONY: run test test-long test-slurm setup build bench bench-reference sanitize fuzz tidy tidy-all format-check clean
+.PHONY: run test test-long test-slurm setup setup-tests build bench bench-reference sanitize fuzz tidy tidy-all format-check clean
 
 run: build
 	@echo "== running cases/slot_quick into $(RUN_DIR)"
 	@status=0; $(BUILD)/bin/cupola run cases/slot_quick/campaign.yaml --run-dir "$(RUN_DIR)" || status=$$?; \
 	[ ! -f "$(RUN_DIR)/report/index.html" ] || echo "== report: $$(realpath "$(RUN_DIR)")/report/index.html"; exit $$status
 
-test: build
+test: build setup-tests
 	@echo "== running the tests"
 	$(CTEST) --test-dir $(BUILD) -LE long
 
-test-long: build
+test-long: build setup-tests
 	@echo "== running all tests, the long ones too"
 	$(CTEST) --test-dir $(BUILD)
 	@$(MAKE) fuzz FUZZ_SECONDS=600
@@ -31,6 +31,9 @@ setup:
 	@echo "== packages, OpenFOAM headers"
 	@tools/install_packages.sh packages.txt
 	@tools/fetch_openfoam_headers.sh .cache
+
+setup-tests:
+	@tools/install_packages.sh packages_for_tests.txt
 
 build: setup
 	@echo "== configuring and building"

@@ -42,7 +42,7 @@ add_test(NAME report.serve COMMAND "${NODE_PROGRAM}" serve.mjs $<TARGET_FILE:cup
          WORKING_DIRECTORY "${browser_build}")
 set_tests_properties(report.serve PROPERTIES LABELS workflow TIMEOUT 120 FIXTURES_REQUIRED report_run)
 
-# ParaView is large and not among the packages that are installed: where it is missing the test says so.
+# ParaView is among the packages of `make test`, not of `make run`: where it is missing the test says so.
 add_test(NAME report.paraview COMMAND sh -c "command -v pvpython > /dev/null || { echo 'SKIPPED: no pvpython here (Debian: python3-paraview)'; exit 77; }; exec pvpython \"$1\" \"$2\""
                                       pvpython "${CMAKE_CURRENT_LIST_DIR}/paraview/open_views.py" "${browser_build}/run")
 set_tests_properties(report.paraview PROPERTIES LABELS workflow TIMEOUT 120 FIXTURES_REQUIRED report_run SKIP_RETURN_CODE 77)

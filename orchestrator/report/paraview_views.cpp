@@ -65,7 +65,9 @@ std::string mesh_grid(const DataItems& items) {
 }
 
 constexpr const char* vertex_file = "vertices.hdf";
-constexpr const char* vertex_dataset = "vertex";
+
+/// Numbers for so many points: a dataset of exactly that length, since ParaView's older reader crashes on a longer one.
+std::string vertex_dataset(std::size_t points) { return fmt::format("first_{}", points); }
 
 /// The points of a group, such as `Tracers`, with their properties.  ParaView draws cells: each point is one, and these
 /// cells want numbers, which the results do not hold.
@@ -75,18 +77,20 @@ std::string point_grid(const DataItems& items, const std::string& group) {
       "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\">"
       R"(<DataItem Dimensions="{0}" NumberType="Int" Precision="8" Format="HDF">{1}:/{2}</DataItem>)"
       "</Topology>\n        <Geometry GeometryType=\"XYZ\">{3}</Geometry>\n",
-      points, vertex_file, vertex_dataset, items.item(group + "/position"));
+      points, vertex_file, vertex_dataset(points), items.item(group + "/position"));
   for (const std::string& name : items.file().names(group))
     if (name != "position") text += items.attribute(name, group + "/" + name, "Node");
   return text;
 }
 
-/// The numbers 0, 1, 2 … for `most` points.
-void write_vertices(const std::filesystem::path& file_name, std::size_t most) {
-  std::vector<std::int64_t> numbers(most);
-  std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
+/// The numbers 0, 1, 2 … for each of these counts of points.
+void write_vertices(const std::filesystem::path& file_name, const std::set<std::size_t>& counts) {
   HdfWriter file(file_name);
-  file.write(vertex_dataset, numbers);
+  for (const std::size_t count : counts) {
+    std::vector<std::int64_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
+    file.write(vertex_dataset(count), numbers);
+  }
   file.commit();
 }
 
@@ -121,10 +125,10 @@ void write_paraview_views(const std::filesystem::path& run_folder, const std::ve
   if (error)
     throw Failure(ExitCode::input_output,
                   fmt::format("{}: cannot be made: {}", (run_folder / "fields").string(), error.message()));
-  std::size_t most = 0;
-  const auto points = [&most](const std::string& group) {
-    return [&most, group](const DataItems& items) {
-      most = std::max(most, items.file().shape(group + "/position").first);
+  std::set<std::size_t> counts;
+  const auto points = [&counts](const std::string& group) {
+    return [&counts, group](const DataItems& items) {
+      counts.insert(items.file().shape(group + "/position").first);
       return point_grid(items, group);
     };
   };
@@ -132,7 +136,7 @@ void write_paraview_views(const std::filesystem::path& run_folder, const std::ve
   write_series(run_folder, stages, TaskKind::tracer, "tracer_fields", "VTKHDF/Points", mesh_grid);
   write_series(run_folder, stages, TaskKind::dem, "parcels", "Packing/position", points("Packing"));
   write_series(run_folder, stages, TaskKind::tracer, "tracers", "Tracers/position", points("Tracers"));
-  if (most > 0) write_vertices(run_folder / "fields" / vertex_file, most);
+  if (!counts.empty()) write_vertices(run_folder / "fields" / vertex_file, counts);
 }
 
 }  // namespace cupola
