@@ -1,5 +1,5 @@
 # Imported targets of the packaged OpenFOAM v1912: OpenFOAM::OpenFOAM, ::Pstream, ::meshTools, ::finiteVolume,
-# ::specie, ::blockMesh.
+# ::specie, ::blockMesh, ::turbulenceModels, ::compressibleTurbulenceModels.
 # The headers are those that tools/fetch_openfoam_headers.sh lays under OPENFOAM_HEADERS.
 set(OPENFOAM_HEADERS "${CMAKE_SOURCE_DIR}/.cache/include/openfoam" CACHE PATH "One folder of headers a library of OpenFOAM")
 find_library(OpenFOAM_CORE_LIBRARY OpenFOAM)
@@ -11,15 +11,18 @@ set(openfoam_dependencies_meshTools surfMesh fileFormats OpenFOAM)
 set(openfoam_dependencies_finiteVolume meshTools surfMesh fileFormats OpenFOAM)
 set(openfoam_dependencies_specie OpenFOAM)
 set(openfoam_dependencies_blockMesh meshTools surfMesh fileFormats OpenFOAM)
+set(openfoam_dependencies_turbulenceModels finiteVolume meshTools OpenFOAM)
+set(openfoam_dependencies_compressibleTurbulenceModels turbulenceModels)
 include(FindPackageHandleStandardArgs)
-if(NOT EXISTS "${OPENFOAM_HEADERS}/OpenFOAM/argList.H" OR NOT EXISTS "${OPENFOAM_HEADERS}/specie/specie.H")
+if(NOT EXISTS "${OPENFOAM_HEADERS}/OpenFOAM/argList.H" OR NOT EXISTS "${OPENFOAM_HEADERS}/specie/specie.H"
+   OR NOT EXISTS "${OPENFOAM_HEADERS}/compressibleTurbulenceModels/compressibleTurbulenceModel.H")
   set(OpenFOAM_REASON "no headers under ${OPENFOAM_HEADERS}: run tools/fetch_openfoam_headers.sh .cache (make build does)")
 endif()
 find_package_handle_standard_args(OpenFOAM REQUIRED_VARS OpenFOAM_CORE_LIBRARY OPENFOAM_HEADERS
                                   REASON_FAILURE_MESSAGE "${OpenFOAM_REASON}")
 if(OpenFOAM_FOUND AND NOT OpenFOAM_REASON AND NOT TARGET OpenFOAM::OpenFOAM)
   find_package(MPI REQUIRED COMPONENTS CXX)
-  foreach(library Pstream OpenFOAM fileFormats surfMesh meshTools finiteVolume specie blockMesh)
+  foreach(library Pstream OpenFOAM fileFormats surfMesh meshTools finiteVolume specie blockMesh turbulenceModels compressibleTurbulenceModels)
     find_library(OpenFOAM_${library}_LIBRARY ${library} REQUIRED)
     mark_as_advanced(OpenFOAM_${library}_LIBRARY)
     add_library(OpenFOAM::${library} SHARED IMPORTED)

@@ -223,10 +223,12 @@ struct DemLimits {
 
 /// `dem.transient`: steps of the transient gas.
 struct TransientGas {
+  enum class Turbulence { laminar, k_epsilon, rng_k_epsilon, realizable_k_epsilon };
   std::optional<double>
       time_step;         ///< s, at most; absent: a block, cut by the gas's way through a cell and by the drag
   double courant = 0.5;  ///< largest way of the gas in a step, in cells
   int corrections = 2;   ///< of a whole step: density and drag, then pressure and fluxes (PIMPLE's outer ones)
+  Turbulence turbulence = Turbulence::laminar;
 };
 
 struct DemSettings {

@@ -339,6 +339,7 @@ DemSettings read_dem(const Section& section, bool gas) {
   transient.read("time_step", dem.transient.time_step);
   transient.read("courant", dem.transient.courant);
   transient.read("corrections", dem.transient.corrections);
+  transient.read("turbulence", dem.transient.turbulence, words::turbulence);
   const auto limits = section.section("limits");
   limits.read("overlap", dem.limits.overlap);
   limits.read("wall_overlap", dem.limits.wall_overlap);

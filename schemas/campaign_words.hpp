@@ -38,6 +38,11 @@ inline constexpr Table<DemSettings::GasModel, 4> dem_gas{{{DemSettings::GasModel
                                                           {DemSettings::GasModel::frozen, "frozen"},
                                                           {DemSettings::GasModel::quasi_steady, "quasi-steady"},
                                                           {DemSettings::GasModel::transient, "transient"}}};
+inline constexpr Table<TransientGas::Turbulence, 4> turbulence{
+    {{TransientGas::Turbulence::laminar, "laminar"},
+     {TransientGas::Turbulence::k_epsilon, "k-epsilon"},
+     {TransientGas::Turbulence::rng_k_epsilon, "rng-k-epsilon"},
+     {TransientGas::Turbulence::realizable_k_epsilon, "realizable-k-epsilon"}}};
 inline constexpr Table<DemSettings::Stop, 2> dem_stop{
     {{DemSettings::Stop::fields_converged, "fields-converged"}, {DemSettings::Stop::duration, "duration"}}};
 inline constexpr Table<TracerSettings::Displacement, 4> displacement{

@@ -156,7 +156,8 @@ Json dem_json(const DemSettings& dem) {
   if (dem.gas == DemSettings::GasModel::transient) {
     json["transient"] = {{"time_step", or_auto(dem.transient.time_step)},
                          {"courant", dem.transient.courant},
-                         {"corrections", dem.transient.corrections}};
+                         {"corrections", dem.transient.corrections},
+                         {"turbulence", word(words::turbulence, dem.transient.turbulence)}};
   }
   return json;
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "physics/closures/gas_properties.hpp"
+#include "physics/closures/sutherland.hpp"
 #include "physics/gas/cell_vectors.hpp"
 #include "physics/gas/inlets_json.hpp"
 #include "stage_dem/parcels.hpp"
@@ -29,6 +31,7 @@ TransientCoupling::TransientCoupling(FoamCase& foam, const BedMesh& mesh, const 
       campaign_(campaign),
       communicator_(communicator),
       flow_(foam, mesh, campaign, gas_temperature),
+      turbulence_(make_turbulence(foam, mesh, campaign)),
       temperature_(std::move(gas_temperature)) {}
 
 void TransientCoupling::update(const SolidsOnMesh& solids, const std::vector<Parcel>& owned, double seconds,
@@ -49,6 +52,10 @@ void TransientCoupling::update(const SolidsOnMesh& solids, const std::vector<Par
     for (std::size_t k = 0; k < 3; ++k) velocity[cell][k] = momentum[3 * cell + k] / solids.volume()[cell];
   }
   flow_.step({bed, solids.volume(), velocity}, temperature_, seconds);
+  if (turbulence_) {
+    turbulence_->step(flow_, temperature_, seconds);
+    flow_.set_eddy_viscosity(turbulence_->eddy_viscosity());
+  }
   last_step_ = seconds;
   ++steps_;
   mass_residual_ = std::max(mass_residual_, flow_.mass_residual());
@@ -120,11 +127,21 @@ std::vector<double> TransientCoupling::velocity() const {
 }
 
 nlohmann::json TransientCoupling::summary() const {
-  return {{"flow_solves", steps_},
-          {"cells_at_void_floor", cells_at_floor_},
-          {"mass_residual", mass_residual_},
-          {"last_step", last_step_},
-          {"inlets", inlets_json(flow_.inlets())}};
+  nlohmann::json summary{{"flow_solves", steps_},
+                         {"cells_at_void_floor", cells_at_floor_},
+                         {"mass_residual", mass_residual_},
+                         {"last_step", last_step_},
+                         {"inlets", inlets_json(flow_.inlets())}};
+  if (turbulence_) {
+    double largest = 0;
+    for (std::size_t cell = 0; cell < mesh_.cells(); ++cell)
+      largest = std::max(largest,
+                         turbulence_->eddy_viscosity()[cell] / gas_viscosity(*campaign_.scene.gas, temperature_[cell]));
+    summary["turbulence"] = {{"eddy_viscosity_over_viscosity_largest", largest},
+                             {"cells_of_limited_shear", flow_.cells_of_limited_shear()},
+                             {"k_largest", *std::max_element(turbulence_->k().begin(), turbulence_->k().end())}};
+  }
+  return summary;
 }
 
 void TransientCoupling::save(HdfWriter& file) const {
@@ -135,6 +152,11 @@ void TransientCoupling::save(HdfWriter& file) const {
   file.write("Gas/void_fraction", memory.void_fraction);
   file.write("Gas/density", memory.gas_density);
   file.write("Gas/face_pressure", memory.face_pressure);
+  if (turbulence_) {
+    file.write("Gas/k", turbulence_->k());
+    file.write("Gas/epsilon", turbulence_->epsilon());
+    file.write("Gas/eddy_viscosity", turbulence_->eddy_viscosity());
+  }
   file.write("Gas/counters", std::vector<std::int64_t>{steps_, cells_at_floor_});
   file.write("Gas/numbers",
              std::vector<double>{momentum_residual_, mass_residual_, solids_volume_, last_step_, stopping_time_});
@@ -144,6 +166,11 @@ void TransientCoupling::load(const HdfReader& file) {
   if (!file.has("Gas/pressure")) return;
   flow_.restore({file.doubles("Gas/pressure"), file.doubles("Gas/face_mass_flux"), file.doubles("Gas/void_fraction"),
                  file.doubles("Gas/density"), file.doubles("Gas/face_pressure")});
+  if (turbulence_) {
+    turbulence_->restore(flow_, temperature_, file.doubles("Gas/k"), file.doubles("Gas/epsilon"),
+                         file.doubles("Gas/eddy_viscosity"));
+    flow_.set_eddy_viscosity(turbulence_->eddy_viscosity());
+  }
   const auto counters = file.integers("Gas/counters", 2);
   steps_ = counters[0];
   cells_at_floor_ = counters[1];

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "physics/gas/transient_flow.hpp"
+#include "physics/turbulence/turbulence.hpp"
 #include "stage_dem/dem_gas.hpp"
 
 namespace cupola {
@@ -28,23 +29,25 @@ class TransientCoupling final : public DemGas {
   [[nodiscard]] double momentum_residual() const override { return momentum_residual_; }
   [[nodiscard]] const std::vector<double>& pressure() const override { return flow_.pressure(); }
   [[nodiscard]] std::vector<double> velocity() const override;
-  /// Steps, cells at the void floor, largest mass residual, inlets.
+  /// Steps, cells at the void floor, largest mass residual, inlets; the turbulence, where there is one.
   [[nodiscard]] nlohmann::json summary() const override;
 
   void save(HdfWriter& file) const override;
   void load(const HdfReader& file) override;
 
   [[nodiscard]] const TransientFlow& flow() const { return flow_; }
+  [[nodiscard]] const Turbulence* turbulence() const { return turbulence_.get(); }
 
  private:
   const BedMesh& mesh_;
   const Campaign& campaign_;
   MPI_Comm communicator_;
   TransientFlow flow_;
-  std::vector<double> temperature_;  ///< K, all cells
-  double solids_volume_ = -1;        ///< m3 in the mesh at the last step; negative: none yet
-  double last_step_ = 0;             ///< s
-  double stopping_time_ = 0;         ///< s, least over the cells: mass over drag coefficient; 0: none known
+  std::unique_ptr<Turbulence> turbulence_;  ///< null: laminar
+  std::vector<double> temperature_;         ///< K, all cells
+  double solids_volume_ = -1;               ///< m3 in the mesh at the last step; negative: none yet
+  double last_step_ = 0;                    ///< s
+  double stopping_time_ = 0;                ///< s, least over the cells: mass over drag coefficient; 0: none known
   std::int64_t steps_ = 0;
   std::int64_t cells_at_floor_ = 0;
   double mass_residual_ = 0;

@@ -51,6 +51,7 @@ add_executable(dem_gas_proofs verification/dem/proof_05_terminal_velocity.cpp
                               verification/dem/proof_07_fluidisation.cpp
                               verification/dem/proof_08_riser.cpp
                               verification/dem/proof_09_gas_momentum.cpp
+                              verification/dem/proof_12_turbulence.cpp
                               verification/dem/gas_scene.cpp
                               verification/dem/proof_scene.cpp unit/dem/box_scene.cpp unit/dem/mpi_main.cpp)
 cupola_own_code(dem_gas_proofs)
@@ -64,6 +65,8 @@ dem_proof(07_fluidisation dem_gas_proofs Fluidisation.OfParcels* 1)
 dem_proof(08_riser dem_gas_proofs Riser.* 1)
 dem_proof(09_gas_1 dem_gas_proofs GasMomentum.* 1)
 dem_proof(09_gas_2 dem_gas_proofs GasMomentum.Given* 2)
+dem_proof(12_turbulence_1 dem_gas_proofs *GridTurbulence*:TurbulenceInABed.* 1)
+dem_proof(12_turbulence_2 dem_gas_proofs *GridTurbulence*/0 2)
 cupola_mpi_test(dem_proof_07_in_full LABEL long RANKS 1 PROGRAM dem_gas_proofs ARGUMENTS --gtest_filter=FluidisationInFull.*)
 set_tests_properties(dem_proof_07_in_full PROPERTIES TIMEOUT 3600)
 

@@ -10,7 +10,7 @@ version=$(dpkg-query -W -f '${Version}' libopenfoam)
 version=${version%+b*}
 upstream=${version%-*}
 headers=$cache/include/openfoam
-[[ -f $headers/.complete-with-specie-$version ]] && exit 0
+[[ -f $headers/.complete-with-turbulence-$version ]] && exit 0
 echo "OpenFOAM headers: fetching the source package of openfoam $version"
 
 # A private apt configuration that asks the same servers for source packages; the machine's own lists stay as they are.
@@ -37,6 +37,7 @@ tar xjf "$archive" -C "$tree" --strip-components=1 --wildcards '*/src/*.[HCh]'
 declare -A folder=(
   [OpenFOAM]=OpenFOAM [OSspecific]=OSspecific/POSIX [Pstream]=Pstream/mpi [fileFormats]=fileFormats [surfMesh]=surfMesh
   [meshTools]=meshTools [specie]=thermophysicalModels/specie [finiteVolume]=finiteVolume [blockMesh]=mesh/blockMesh
+  [turbulenceModels]=TurbulenceModels/turbulenceModels [compressibleTurbulenceModels]=TurbulenceModels/compressible
 )
 for library in "${!folder[@]}"; do
   mkdir -p "$headers.partial/$library"
@@ -47,5 +48,5 @@ for name in DiagonalMatrix fvPatchField fvsPatchField; do
   find "$headers.partial" -name "$name.H" -exec sed -i -E "s/(^| |~|explicit )($name)<Type>\(/\1\2(/" {} +
 done
 rm -rf "$tree"
-touch "$headers.partial/.complete-with-specie-$version"
+touch "$headers.partial/.complete-with-turbulence-$version"
 mv "$headers.partial" "$headers"

@@ -17,6 +17,10 @@ namespace {
 constexpr double step_tolerance = 1e-10;
 constexpr double acceptable_step_residual = 1e-6;
 
+/// Shear is explicit: what it exchanges in a step is at most this share of a cell's gas.  Eddies that would exchange
+/// more are as wide as the cells, where upwind convection diffuses as much by itself.
+constexpr double largest_shear_exchange = 0.5;
+
 }  // namespace
 
 TransientFlow::TransientFlow(FoamCase& foam, const BedMesh& mesh, const Campaign& campaign,
@@ -48,10 +52,11 @@ void TransientFlow::take_void_fraction(const std::vector<double>& void_fraction)
 void TransientFlow::step(const Solids& solids, const std::vector<double>& temperature, double seconds) {
   const std::size_t cells = mesh_.cells();
   if (openings_.state_velocity()) openings_.follow_pressure(openings_.mean(face_pressure_));
-  convection_ = convection(temperature);
+  convection_ = convection(temperature, seconds);
   std::vector<double> gas_before(cells);
   for (std::size_t cell = 0; cell < cells; ++cell)
     gas_before[cell] = mesh_.cell_volume[cell] * void_fraction_[cell] * density_[cell];
+  gas_by_volume_before_ = gas_by_volume();
   const auto flux_before = flux_;
   void_fraction_ = solids.bed.void_fraction;
   // Where the line of centres is not normal to the face: the change of pressure in the face's plane, from the step
@@ -91,11 +96,49 @@ void TransientFlow::set_resistance(const Solids& solids, const std::vector<doubl
   }
 }
 
-std::vector<Vector3> TransientFlow::convection(const std::vector<double>& temperature) const {
+std::vector<double> TransientFlow::gas_by_volume() const {
+  std::vector<double> gas(mesh_.cells());
+  for (std::size_t cell = 0; cell < gas.size(); ++cell) gas[cell] = void_fraction_[cell] * density_[cell];
+  return gas;
+}
+
+std::vector<double> TransientFlow::shear_exchange(const std::vector<double>& temperature, double seconds) {
+  const std::size_t cells = mesh_.cells();
+  std::vector<double> shear(cells);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    shear[cell] = gas_viscosity(*campaign_.scene.gas, temperature[cell]);
+    if (!eddy_viscosity_.empty()) shear[cell] += eddy_viscosity_[cell];
+    shear[cell] *= void_fraction_[cell];
+  }
+  std::vector<double> exchange(mesh_.faces(), 0), of_cell(cells, 0);
+  for (std::size_t face = 0; face < mesh_.faces(); ++face) {
+    const auto owner = mesh_.face_owner[face];
+    const auto neighbour = mesh_.face_neighbour[face];
+    if (neighbour < 0) continue;
+    exchange[face] = geometry_.area[face] / (geometry_.owner_distance[face] / shear[owner] +
+                                             geometry_.neighbour_distance[face] / shear[neighbour]);
+    of_cell[owner] += exchange[face];
+    if (face < mesh_.internal_faces()) of_cell[neighbour] += exchange[face];
+  }
+  shear_limited_ = 0;
+  if (eddy_viscosity_.empty()) return exchange;
+  std::vector<double> share(cells, 1);
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const double most =
+        largest_shear_exchange * mesh_.cell_volume[cell] * void_fraction_[cell] * density_[cell] / seconds;
+    if (of_cell[cell] <= most) continue;
+    share[cell] = most / of_cell[cell];
+    ++shear_limited_;
+  }
+  for (std::size_t face = 0; face < mesh_.faces(); ++face)
+    if (mesh_.face_neighbour[face] >= 0)
+      exchange[face] *= std::min(share[mesh_.face_owner[face]], share[mesh_.face_neighbour[face]]);
+  return exchange;
+}
+
+std::vector<Vector3> TransientFlow::convection(const std::vector<double>& temperature, double seconds) {
   std::vector<Vector3> result(mesh_.cells(), Vector3{});
-  std::vector<double> shear(mesh_.cells());
-  for (std::size_t cell = 0; cell < mesh_.cells(); ++cell)
-    shear[cell] = void_fraction_[cell] * gas_viscosity(*campaign_.scene.gas, temperature[cell]);
+  const std::vector<double> shear = shear_exchange(temperature, seconds);
   for (std::size_t face = 0; face < mesh_.faces(); ++face) {
     const auto owner = mesh_.face_owner[face];
     const auto neighbour = mesh_.face_neighbour[face];
@@ -105,8 +148,7 @@ std::vector<Vector3> TransientFlow::convection(const std::vector<double>& temper
     double exchange = 0;
     if (neighbour >= 0) {
       beside = velocity_[neighbour];
-      exchange = geometry_.area[face] / (geometry_.owner_distance[face] / shear[owner] +
-                                         geometry_.neighbour_distance[face] / shear[neighbour]);
+      exchange = shear[face];
     } else if (openings_.is_inlet(face)) {
       beside = {};
       add(beside, flux_[face] / (density_[owner] * geometry_.area[face]), geometry_.normal[face]);

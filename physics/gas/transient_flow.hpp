@@ -18,7 +18,8 @@ namespace cupola {
 /// convection and shear explicit and upwind (so a step is limited by the gas's way through a cell, not by sound or by
 /// drag); a step is corrected as a whole some times, as PIMPLE does, so that density and drag belong to its end.  Mass
 /// is conserved to the tolerance of the pressure equation (1e-10 of what flows), momentum between gas and solids to
-/// round-off: `drag` is the very term of the gas's equation.  Walls slip.  Laminar; no gravity on the gas.
+/// round-off: `drag` is the very term of the gas's equation.  Walls slip.  mu is the gas's own and, where one is given,
+/// the eddy viscosity; no gravity on the gas.
 ///
 /// Arrays are over all cells or faces and the same on every rank.
 class TransientFlow {
@@ -41,12 +42,21 @@ class TransientFlow {
   /// @throws Failure diverged (names the cell)
   void step(const Solids& solids, const std::vector<double>& temperature, double seconds);
 
+  /// What turbulence adds to the gas's viscosity from the next step on, Pa s in each cell; laminar without it.
+  void set_eddy_viscosity(std::vector<double> viscosity) { eddy_viscosity_ = std::move(viscosity); }
+
   /// s, in which the gas goes through the cell it enters and leaves fastest; infinity where it stands still.
   [[nodiscard]] double crossing_time() const;
   [[nodiscard]] const std::vector<double>& pressure() const { return pressure_; }            ///< Pa
   [[nodiscard]] const std::vector<Vector3>& pressure_gradient() const { return gradient_; }  ///< Pa/m
   [[nodiscard]] const std::vector<Vector3>& velocity() const { return velocity_; }           ///< u, interstitial, m/s
-  [[nodiscard]] const std::vector<Vector3>& drag() const { return drag_; }           ///< N/m3 of cell, on the solids
+  [[nodiscard]] const std::vector<Vector3>& drag() const { return drag_; }  ///< N/m3 of cell, on the solids
+  /// Cells of the last step in which eddies would exchange more than a step can follow.
+  [[nodiscard]] std::int64_t cells_of_limited_shear() const { return shear_limited_; }
+  /// Gas by volume of cell (void fraction x density) when the last step began and when it ended, kg/m3.
+  [[nodiscard]] const std::vector<double>& gas_by_volume_before() const { return gas_by_volume_before_; }
+  [[nodiscard]] std::vector<double> gas_by_volume() const;
+  [[nodiscard]] const std::vector<double>& void_fraction() const { return void_fraction_; }
   [[nodiscard]] const std::vector<double>& face_mass_flux() const { return flux_; }  ///< kg/s out of the owner
   /// r of the last step: -grad p = r x superficial slip, kg/m3/s.
   [[nodiscard]] const std::vector<double>& resistance() const { return resistance_; }
@@ -82,8 +92,10 @@ class TransientFlow {
     return mesh_.face_neighbour[face] >= 0 || openings_.holds_pressure(face);
   }
   void set_resistance(const Solids& solids, const std::vector<double>& temperature);
+  /// What shear exchanges through the inner and periodic faces, kg/s, as far as a step of `seconds` can follow it.
+  [[nodiscard]] std::vector<double> shear_exchange(const std::vector<double>& temperature, double seconds);
   /// div(G u) - div(e mu grad u) of each cell, N/m3.
-  [[nodiscard]] std::vector<Vector3> convection(const std::vector<double>& temperature) const;
+  [[nodiscard]] std::vector<Vector3> convection(const std::vector<double>& temperature, double seconds);
   void set_velocity();
   /// Pressures and fluxes at the end of the step. @param gas_before kg in each cell  @param flux_before kg/s
   void correct(const Solids& solids, const std::vector<double>& temperature, const std::vector<double>& gas_before,
@@ -105,6 +117,9 @@ class TransientFlow {
   std::vector<double> density_of_law_;  ///< kg/m3, that the faces' fluxes were found with: before the last correction
   std::vector<double> resistance_;      ///< r, kg/m3/s
   std::vector<double> oblique_;  ///< Pa, owner's and neighbour's part: what the pressure changes in the face's plane
+  std::vector<double> eddy_viscosity_;        ///< Pa s; empty: laminar
+  std::vector<double> gas_by_volume_before_;  ///< kg/m3
+  std::int64_t shear_limited_ = 0;
   std::vector<Vector3> convection_, velocity_, gradient_, drag_;
   double mass_residual_ = 0;
   Vector3 force_of_solids_{};

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "physics/mesh/foam_turbulence.hpp"
 #include "schemas/files.hpp"
 
 namespace cupola {
@@ -29,10 +30,10 @@ runTimeModifiable no;
 )";
 }
 
-std::string schemes_dictionary() {
+std::string schemes_dictionary(const Campaign& campaign) {
   return foam_file_head("fvSchemes") +
-         R"(ddtSchemes           { default steadyState; }
-gradSchemes          { default Gauss linear; }
+         fmt::format("ddtSchemes           {{ default {}; }}\n", has_turbulence(campaign) ? "Euler" : "steadyState") +
+         R"(gradSchemes          { default Gauss linear; }
 divSchemes           { default Gauss upwind; }
 laplacianSchemes     { default Gauss linear corrected; }
 interpolationSchemes { default linear; }
@@ -55,7 +56,7 @@ std::string solution_dictionary() {
         maxIter               200;
     }
     // Upwind convection with conduction: not symmetric.
-    T
+    "(T|k|epsilon)"
     {
         solver         PBiCGStab;
         preconditioner DILU;
@@ -113,7 +114,8 @@ void write_foam_dictionaries(const std::filesystem::path& case_folder, const Cam
   std::filesystem::create_directories(system);
   write_text_atomically(system / "blockMeshDict", block_mesh_dictionary(campaign, counts));
   write_text_atomically(system / "controlDict", control_dictionary());
-  write_text_atomically(system / "fvSchemes", schemes_dictionary());
+  write_text_atomically(system / "fvSchemes", schemes_dictionary(campaign));
+  if (has_turbulence(campaign)) write_foam_turbulence(case_folder, campaign);
   write_text_atomically(system / "fvSolution", solution_dictionary());
   if (campaign.launch.ranks > 1) {
     write_text_atomically(system / "decomposeParDict", decomposition_dictionary(campaign));

@@ -12,6 +12,7 @@
 #include "physics/mesh/bed_mesh.hpp"
 #include "physics/mesh/foam_dictionaries.hpp"
 #include "physics/mesh/foam_tool.hpp"
+#include "physics/mesh/foam_turbulence.hpp"
 #include "physics/mesh/mesh_from_foam.hpp"
 #include "physics/mesh/wall_triangles.hpp"
 #include "physics/plan/mesh_counts.hpp"
@@ -160,7 +161,12 @@ void prepare(const std::filesystem::path& task_folder, const Task& task) {
   check_against_plan(mesh, campaign, counts);
   mesh.write(building / "mesh.hdf", task.campaign_hash);
   write_stl(building / "wall.stl", wall_triangles(campaign));
-  if (campaign.launch.ranks > 1) run_foam_tool("decomposePar", {"-constant"}, building);
+  if (campaign.launch.ranks > 1) {
+    // The mesh alone, or with the fields that a turbulence model reads.
+    const std::vector<std::string> what =
+        has_turbulence(campaign) ? std::vector<std::string>{"-time", "0"} : std::vector<std::string>{"-constant"};
+    run_foam_tool("decomposePar", what, building);
+  }
   write_json_atomically(building / "prepared.json", wanted);
 
   std::filesystem::remove_all(folder / "foam");

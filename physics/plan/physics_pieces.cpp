@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/closures/drag.hpp"
+#include "schemas/campaign_words.hpp"
 
 namespace cupola {
 
@@ -68,6 +69,13 @@ std::vector<PhysicsPiece> physics_pieces(const Campaign& campaign, const Cost::P
         coarse ? "parcels stand for several grains (species.coarse_graining)" : "every grain is a parcel");
   piece("gas in the DEM stage", dem_gas, dem_gas ? dem_gas_piece(campaign) : (gas ? "dem.gas is none" : no_gas),
         cost.dem_gas);
+  const bool transient = dem_gas && campaign.dem.gas == DemSettings::GasModel::transient;
+  const bool turbulent = transient && campaign.dem.transient.turbulence != TransientGas::Turbulence::laminar;
+  piece("turbulence of the gas", turbulent,
+        turbulent ? fmt::format("{} of OpenFOAM in the DEM stage's transient gas (dem.transient.turbulence)",
+                                words::word_of(words::turbulence, campaign.dem.transient.turbulence))
+                  : (transient ? "dem.transient.turbulence is laminar"
+                               : "only the transient gas of the DEM stage can be turbulent (dem.gas)"));
   const bool filtered = gas && campaign.filtered_drag.has_value();
   piece("drag of coarse parcels and cells", filtered,
         !gas ? no_gas

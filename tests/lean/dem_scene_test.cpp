@@ -38,6 +38,7 @@ launch: {ranks: 1}
 /// What couples gas and parcels, and what a temperature makes of them.
 const char* const gas = "cupola::(GasCoupling|BedFlow|DarcyForchheimer|Openings)::";
 const char* const flow_solver = "Foam::(lduMatrix::lduMatrix|fvMatrix<double>::fvMatrix)";
+const char* const turbulence = "cupola::(Turbulence::|make_turbulence)";
 const char* const softening = "cupola::(soften|regrow|melted)[(]";
 
 /// The cold scene's bed, poured uncounted, and the stage that goes on from it.
@@ -82,8 +83,8 @@ class LeanDemScene : public ::testing::Test {
 TEST_F(LeanDemScene, WithoutHeatAndGasNoFlowSolverIsConstructedAndAFeatureThatIsOffCostsNothing) {
   const Counted lean = counted("lean", scene());
   EXPECT_TRUE(lean.calls("cupola::DemStage::advance_block"));
-  for (const char* piece : {gas, flow_solver, softening}) EXPECT_FALSE(lean.calls(piece)) << piece;
-  for (const char* piece : {gas, softening}) EXPECT_TRUE(has_function(CUPOLA_DEM, piece)) << piece;
+  for (const char* piece : {gas, flow_solver, turbulence, softening}) EXPECT_FALSE(lean.calls(piece)) << piece;
+  for (const char* piece : {gas, turbulence, softening}) EXPECT_TRUE(has_function(CUPOLA_DEM, piece)) << piece;
   for (const std::string& name : lean.written) {
     EXPECT_EQ(name.find("emperature"), std::string::npos) << name;
     EXPECT_EQ(name.find("gas"), std::string::npos) << name;

@@ -42,6 +42,7 @@ Task tiny_task(int ranks, DemSettings::GasModel gas = DemSettings::GasModel::qua
   task.campaign.dem.gas = gas;
   const bool transient = gas == DemSettings::GasModel::transient;
   if (transient) task.campaign.dead_man = DeadMan{0.4, 1};
+  if (transient) task.campaign.dem.transient.turbulence = TransientGas::Turbulence::realizable_k_epsilon;
   task.campaign.dem.relaxation = 0.1;
   task.campaign.dem.window = transient ? 0.1 : 0.3;  // its steps are short
   task.campaign.charging.stock_line = 1.6;

@@ -97,7 +97,7 @@ TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
   campaign.dem.smoothing_length = 0.3;
   campaign.dem.limits = {0.2, 0.5, 0.1};
   campaign.dem.gas = DemSettings::GasModel::transient;
-  campaign.dem.transient = {1e-3, 0.25, 3};
+  campaign.dem.transient = {1e-3, 0.25, 3, TransientGas::Turbulence::realizable_k_epsilon};
   campaign.dead_man = {2.5, 0.8};
   campaign.contacts.stiffness_of = Contacts::StiffnessOf::parcel;
   campaign.contacts.rolling_model = Contacts::Rolling::epsd;
@@ -117,6 +117,7 @@ TEST(ResolvedCampaign, KeepsTheModelsOfTheDemStage) {
   EXPECT_EQ(again.dem.transient.time_step, 1e-3);
   EXPECT_EQ(again.dem.transient.courant, 0.25);
   EXPECT_EQ(again.dem.transient.corrections, 3);
+  EXPECT_EQ(again.dem.transient.turbulence, TransientGas::Turbulence::realizable_k_epsilon);
   EXPECT_EQ(again.dead_man->tip, 2.5);
   EXPECT_EQ(again.dead_man->slope, 0.8);
   EXPECT_EQ(again.contacts.stiffness_of, Contacts::StiffnessOf::parcel);
