@@ -277,6 +277,15 @@ TEST(Plan, PiecesAreNamedAsTheCampaignHasThem) {
                     HasSubstr("on  resistance inside the grain")));
 }
 
+TEST(Plan, SaysWhetherTheGasIsTurbulentAndWhy) {
+  Campaign campaign = paper_furnace();
+  EXPECT_THAT(plan_text(make_plan(campaign)), HasSubstr("only the transient gas of the DEM stage can be turbulent"));
+  campaign.dem.gas = DemSettings::GasModel::transient;
+  EXPECT_THAT(plan_text(make_plan(campaign)), HasSubstr("dem.transient.turbulence is laminar"));
+  campaign.dem.transient.turbulence = TransientGas::Turbulence::rng_k_epsilon;
+  EXPECT_THAT(plan_text(make_plan(campaign)), HasSubstr("rng-k-epsilon of OpenFOAM"));
+}
+
 TEST(Plan, RanksBeyondTheMachinesCoresTakeTurns) {
   Campaign campaign = paper_furnace();
   campaign.launch.ranks = 1;
