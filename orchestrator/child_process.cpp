@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -19,21 +20,32 @@ namespace {
 
 constexpr int cannot_be_started = 127;  // as the shell says it
 
-/// When a process was started, clock ticks since the machine was; 0 where there is no such process or it has ended.
-std::uint64_t start_of(int pid) {
+struct ProcessLine {
+  std::uint64_t started = 0;  ///< clock ticks since the machine was; 0 where there is no such process or it has ended
+  int session = 0;
+};
+
+ProcessLine process_line(int pid) {
   std::ifstream file(fmt::format("/proc/{}/stat", pid));
   std::string text;
-  if (!std::getline(file, text)) return 0;
-  // The second field, the name in brackets, may hold blanks; state is field 3, the start is field 22.
+  if (!std::getline(file, text)) return {};
+  // The second field, the name in brackets, may hold blanks; state is field 3, the session 6, the start is field 22.
   const std::size_t bracket = text.rfind(')');
-  if (bracket == std::string::npos) return 0;
+  if (bracket == std::string::npos) return {};
   std::istringstream fields(text.substr(bracket + 1));
   std::string field;
   fields >> field;
-  if (field == "Z" || field == "X") return 0;
-  for (int i = 4; i <= 22; ++i) fields >> field;
-  return std::strtoull(field.c_str(), nullptr, 10);
+  if (field == "Z" || field == "X") return {};
+  ProcessLine line;
+  for (int i = 4; i <= 22; ++i) {
+    fields >> field;
+    if (i == 6) line.session = std::atoi(field.c_str());
+  }
+  line.started = std::strtoull(field.c_str(), nullptr, 10);
+  return line;
 }
+
+std::uint64_t start_of(int pid) { return process_line(pid).started; }
 
 /// What the new process does: only calls that are safe between fork and exec.
 [[noreturn]] void become(const std::vector<char*>& words, const std::vector<char*>& environment, int log, int gate,
@@ -143,6 +155,17 @@ std::optional<int> ChildProcess::poll() {
 
 void ChildProcess::signal(int number) const {
   if (!status_) ::kill(pid_, number);
+}
+
+void ChildProcess::kill_all() const {
+  if (status_) return;
+  // The ranks have process groups of their own, but the session is ours: nothing can leave it by accident.
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+    const int pid = std::atoi(entry.path().filename().c_str());
+    if (pid > 0 && process_line(pid).session == pid_) ::kill(pid, SIGKILL);
+  }
+  ::kill(pid_, SIGKILL);
 }
 
 }  // namespace cupola

@@ -51,6 +51,8 @@ class ChildProcess {
   /// Its exit status once it has ended (128 + the signal's number where a signal ended it); none while it runs.
   [[nodiscard]] std::optional<int> poll();
   void signal(int number) const;
+  /// Kills it and all that it has started in its process session.
+  void kill_all() const;
   [[nodiscard]] int pid() const { return pid_; }
 
  private:

@@ -84,6 +84,10 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 1000000));
     sub->add_flag("--accept-versions", options.accept_versions,
                   "Go on although program or libraries are of other versions than those the run goes by");
+    sub->add_option_function<double>(
+           "--stop-within", [&](double seconds) { options.stop_within = std::chrono::duration<double>(seconds); },
+           "Seconds after which a stage that was asked to stop is killed")
+        ->check(CLI::PositiveNumber);
     sub->add_option("--until-episode", options.until_episode, "Stop after this episode; `resume` goes on")
         ->check(CLI::Range(1, 1000000));
   };

@@ -40,7 +40,7 @@ class March {
   March(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,
         const MarchOptions& options, const AfterStage& after_stage)
       : run_(run),
-        stages_(run, launcher, signals, view),
+        stages_(run, launcher, signals, view, options.stop_within),
         view_(view),
         options_(options),
         after_stage_(after_stage),

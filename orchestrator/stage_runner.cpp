@@ -211,6 +211,7 @@ int StageRunner::run_to_end(const StagePlace& place, Command command, const std:
   const auto begin = std::chrono::steady_clock::now();
   process.release();
   int passed_on = 0;
+  auto deadline = std::chrono::steady_clock::time_point::max();
   for (;;) {
     if (const auto status = process.poll()) {
       waited_ += std::chrono::steady_clock::now() - begin;
@@ -222,8 +223,18 @@ int StageRunner::run_to_end(const StagePlace& place, Command command, const std:
     if (const int asked = signals_.stop_requests(); stoppable && asked > passed_on) {
       view_.say(passed_on == 0 ? "stopping: the stage ends its block and writes a checkpoint"
                                : "already stopping: waiting for the stage's checkpoint");
+      if (passed_on == 0)
+        deadline = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(stop_within_);
       passed_on = asked;
       process.signal(SIGUSR1);
+    }
+    if (std::chrono::steady_clock::now() > deadline) {
+      view_.say(
+          fmt::format("{}: has not left {} after it was asked to; it is killed, and goes on from its last checkpoint",
+                      name_of(place), duration_text(stop_within_.count())));
+      process.kill_all();
+      deadline = std::chrono::steady_clock::time_point::max();
     }
   }
 }

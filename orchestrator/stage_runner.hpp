@@ -28,9 +28,17 @@ namespace cupola {
 ///   four times without a new checkpoint in between.
 class StageRunner {
  public:
-  /// All are kept by reference.
-  StageRunner(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view)
-      : run_(run), launcher_(launcher), signals_(signals), view_(view), jobs_(run, launcher, signals, view) {}
+  /// All but `stop_within` are kept by reference.
+  /// @param stop_within a stage that was asked to stop and has not left by then is killed: it has lost what it did
+  /// since its last checkpoint
+  StageRunner(RunFolder& run, const StageLauncher& launcher, SignalWatch& signals, ProgressView& view,
+              std::chrono::duration<double> stop_within)
+      : run_(run),
+        launcher_(launcher),
+        signals_(signals),
+        view_(view),
+        jobs_(run, launcher, signals, view),
+        stop_within_(stop_within) {}
 
   /// @return the finished task folder; none: stopped on request, with what is there left to go on from
   /// @throws Failure wrong_input, diverged, input_output: as the stage said, or because its result was refused
@@ -83,6 +91,7 @@ class StageRunner {
   SignalWatch& signals_;
   ProgressView& view_;
   SlurmStage jobs_;
+  std::chrono::duration<double> stop_within_;
   std::chrono::duration<double> waited_{0};
 };
 

@@ -130,17 +130,28 @@ std::string changes_of_ranks(const std::vector<RanksFrom>& used) {
   return text + ": the same to the last digit only with `cupola resume --ranks` at the same places";
 }
 
-/// The licence that the owner of the data has put into the crate; none: nothing is said.
-json license_in(const std::filesystem::path& crate) {
+/// What the owner of the data has put into the crate: licence and authors of the whole, and who these are.
+struct OwnersWords {
+  json of_root = json::object();
+  json entities = json::array();
+};
+
+OwnersWords owners_words_in(const std::filesystem::path& crate) {
   try {
     const json before = std::filesystem::exists(crate) ? read_json(crate) : json::object();
     const json graph = before.value("@graph", json::array());
-    for (const json& entity : graph)
-      if (entity.value("@id", "") == "./") return entity.value("license", json());
+    OwnersWords words;
+    for (const json& entity : graph) {
+      if (entity.value("@id", "") == "./")
+        for (const char* key : {"license", "author", "publisher", "funder"})
+          if (entity.contains(key)) words.of_root[key] = entity[key];
+      const json type = entity.value("@type", json());
+      if (type == "Person" || type == "Organization") words.entities.push_back(entity);
+    }
+    return words;
   } catch (const std::exception&) {
-    return nullptr;  // a damaged one is made anew
+    return {};  // a damaged one is made anew
   }
-  return nullptr;
 }
 
 }  // namespace
@@ -246,9 +257,9 @@ json ro_crate(const RunRecord& run, const json& report) {
                  {"version", version},
                  {"softwareRequirements", json::array()}},
                 action};
-  if (const json license = license_in(run.folder / "ro-crate-metadata.json"); !license.is_null()) {
-    graph[1]["license"] = license;
-  }
+  const OwnersWords owner = owners_words_in(run.folder / "ro-crate-metadata.json");
+  graph[1].update(owner.of_root);
+  graph.insert(graph.end(), owner.entities.begin(), owner.entities.end());
   for (const auto& [name, library] : report.at("versions").items()) {
     if (name != "cupola") {
       graph[2]["softwareRequirements"].push_back(name + " " + library.get<std::string>());

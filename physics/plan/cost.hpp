@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <cstddef>
 
 #include "physics/plan/charge.hpp"
@@ -35,6 +36,9 @@ struct Cost {
   [[nodiscard]] double dem_block_wall_seconds() const { return dem_wall_seconds() / dem_blocks; }
   [[nodiscard]] double tracer_step_wall_seconds() const { return tracer_wall_seconds() / tracer_steps; }
 };
+
+/// How long a stage that was asked to stop may take at most, unless `--stop-within` says otherwise: then it is killed.
+inline constexpr std::chrono::minutes longest_stop{5};
 
 Cost expected_cost(const Campaign& campaign, const Charge& charge, const DemTimeStep& dem_step, double parcels,
                    std::size_t cells, const Rates& rates = {});

@@ -114,6 +114,7 @@ nlohmann::json plan_json(const Plan& plan) {
                     {"fewest_episodes", plan.cost.fewest_episodes},
                     {"most_episodes", plan.cost.most_episodes},
                     {"episode_wall_seconds", plan.cost.episode_wall_seconds()},
+                    {"longest_stop_seconds", std::chrono::duration<double>(longest_stop).count()},
                     {"dem_block_wall_seconds", plan.cost.dem_block_wall_seconds()},
                     {"tracer_step_wall_seconds", plan.cost.tracer_step_wall_seconds()}};
   result["warnings"] = plan.warnings;

@@ -114,8 +114,9 @@ void write_cost(Text& text, const Plan& plan) {
        duration(cost.most_episodes * cost.episode_wall_seconds()));
   line(text,
        "  asked to stop, a DEM stage leaves with a checkpoint after a block at most (about {}), a tracer stage after a "
-       "step (about {})",
-       duration(cost.dem_block_wall_seconds()), duration(cost.tracer_step_wall_seconds()));
+       "step (about {}); what has not left after {} (--stop-within) is killed and goes on from its last checkpoint",
+       duration(cost.dem_block_wall_seconds()), duration(cost.tracer_step_wall_seconds()),
+       duration(std::chrono::duration<double>(longest_stop).count()));
   line(text, "  memory over all ranks: DEM stage about {}, tracer stage about {}", megabytes(cost.dem_memory),
        megabytes(cost.tracer_memory));
   line(text, "  (from {:.2g} parcel steps, {:.2g} tracer steps, {:.2g} cells of gas a core second: {})",

@@ -80,6 +80,22 @@ for signals in TERM "INT INT"; do
   [[ $status == 75 ]] || fail "$signals: left with $status"
 done
 
+echo "-- a rank that cannot answer: the stage is killed once --stop-within is over"
+touch "$work/begun"
+"$cupola" resume "$run" --stop-within 2 >> "$work/out" 2>&1 &
+orchestrator=$!
+wait_for 120 in_stage 002 dem || fail "the second DEM stage does not go on"
+mpirun=$(stage_process)
+rank=$(pgrep -P "$mpirun" | head -n 1)
+kill -STOP "$rank"
+kill -TERM "$orchestrator"
+wait_for 60 sh -c "! kill -0 $orchestrator 2> /dev/null" || fail "--stop-within 2 does not end a stage that hangs"
+wait "$orchestrator"
+status=$?
+[[ $status == 75 ]] || fail "a stage that hangs: left with $status"
+grep -q "is killed, and goes on from its last checkpoint" "$work/out" || fail "the kill of a stage that hangs is not told"
+wait_for 10 sh -c "! kill -0 $rank 2> /dev/null" || fail "a rank outlives its stage"
+
 echo "-- SIGKILL of mpirun, of its ranks and of the orchestrator inside the second DEM stage"
 begin
 wait_for 120 in_stage 002 dem || fail "the second DEM stage does not go on"

@@ -218,10 +218,20 @@ TEST_F(MakeReport, IsAResearchObjectCrate) {
   EXPECT_FALSE(entities.at("./").contains("license"));
   json licensed = crate;
   for (json& entity : licensed.at("@graph"))
-    if (entity.at("@id") == "./") entity["license"] = "https://creativecommons.org/licenses/by/4.0/";
+    if (entity.at("@id") == "./") {
+      entity["license"] = "https://creativecommons.org/licenses/by/4.0/";
+      entity["author"] = {{"@id", "#engineer"}};
+    }
+  licensed.at("@graph").push_back({{"@id", "#engineer"}, {"@type", "Person"}, {"name", "Anna Engineer"}});
   write_json_atomically(path() / "ro-crate-metadata.json", licensed);
   make_report(path());
-  EXPECT_THAT(read_text(path() / "ro-crate-metadata.json"), HasSubstr("licenses/by/4.0"));
+  const json kept = read_json(path() / "ro-crate-metadata.json");
+  for (const json& entity : kept.at("@graph")) {
+    if (entity.at("@id") != "./") continue;
+    EXPECT_EQ(entity.at("license"), "https://creativecommons.org/licenses/by/4.0/");
+    EXPECT_EQ(entity.at("author").at("@id"), "#engineer");
+  }
+  EXPECT_THAT(kept.dump(), HasSubstr("Anna Engineer"));
   EXPECT_EQ(entities.at("#campaign").at("instrument").at("@id"), "#cupola-" + std::string(program_version));
 }
 
