@@ -210,14 +210,17 @@ Conduction::Result Conduction::advance(const CellContents& contents, const BySpe
   }
   result.change.assign(species, std::vector<double>(cells, 0.0));
   result.damping = result.change;
-  for (std::size_t i = 0; i < inflow.size(); ++i) {
-    const double holds = capacity[i / cells][i % cells];
-    if (holds <= 0) continue;
-    const double lost = wall[i] * (temperature[i] - outside);
-    result.walls += lost * step;
-    result.change[i / cells][i % cells] = (inflow[i] - lost) * step / holds;
-    const double stiffness = conductance[i] * step / holds;
-    result.damping[i / cells][i % cells] = std::max(0.0, (stiffness - 1) / (stiffness + 1));
+  for (std::size_t s = 0; s < species; ++s) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      const std::size_t i = s * cells + c;
+      const double holds = capacity[s][c];
+      if (holds <= 0) continue;
+      const double lost = wall[i] * (temperature[i] - outside);
+      result.walls += lost * step;
+      result.change[s][c] = (inflow[i] - lost) * step / holds;
+      const double stiffness = conductance[i] * step / holds;
+      result.damping[s][c] = std::max(0.0, (stiffness - 1) / (stiffness + 1));
+    }
   }
   return result;
 }
