@@ -55,7 +55,7 @@ sanitize: setup
 	@[ -f build-sanitize/build.ninja ] || cmake -S . -B build-sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 -DCUPOLA_SANITIZE=ON -DCUPOLA_WARNINGS_AS_ERRORS=OFF
 	cmake --build build-sanitize -j $(JOBS) --target sanitized
-	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long -E 'browser|serve'
+	ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1 $(CTEST) --test-dir build-sanitize -L 'unit|workflow' -LE long -E 'browser|serve|study.figures'
 
 # Fuzzers of the campaign reader and of the readers of HDF5: the kept corpus is replayed, then FUZZ_SECONDS each for something new.
 FUZZ_SECONDS ?= 60
