@@ -38,7 +38,8 @@ void add_episode(const RunRecord& run, const json& episode, json& steps) {
   steps.push_back(step(index, "DEM stage", episode.at("dem")));
   if (episode.at("predict").is_object()) {
     json line = step(index, "prediction with its field", episode.at("predict"));
-    if (!episode.at("predict").value(json::json_pointer("/prediction/converged"), false))
+    if (line.at("state") == "finished" &&
+        !episode.at("predict").value(json::json_pointer("/prediction/converged"), false))
       line["sentence"] = "It did not converge: the tracers marched instead.";
     steps.push_back(line);
   }
