@@ -103,9 +103,9 @@ std::string decomposition_dictionary(const Campaign& campaign) {
 
 }  // namespace
 
-std::string foam_file_head(const std::string& object) {
-  return fmt::format("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class dictionary;\n    object {};\n}}\n\n",
-                     object);
+std::string foam_file_head(const std::string& object, const std::string& of_class) {
+  return fmt::format("FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class {};\n    object {};\n}}\n\n",
+                     of_class, object);
 }
 
 void write_foam_dictionaries(const std::filesystem::path& case_folder, const Campaign& campaign,

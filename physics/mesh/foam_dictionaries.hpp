@@ -15,7 +15,7 @@ void write_foam_dictionaries(const std::filesystem::path& case_folder, const Cam
 /// other opening or wall a patch of its own, made of whole block faces.
 std::string block_mesh_dictionary(const Campaign& campaign, const MeshCounts& counts);
 
-/// Head of an OpenFOAM dictionary file.
-std::string foam_file_head(const std::string& object);
+/// Head of an OpenFOAM file of a class: a dictionary, or a field such as volScalarField.
+std::string foam_file_head(const std::string& object, const std::string& of_class = "dictionary");
 
 }  // namespace cupola

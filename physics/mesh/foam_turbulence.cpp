@@ -24,12 +24,11 @@ std::string uniform_field(const Campaign& campaign, const std::string& name, con
   std::string sides;
   if (campaign.scene.geometry.sides == Geometry::Sides::periodic)
     sides = "    front { type cyclic; }\n    back { type cyclic; }\n";
-  return fmt::format(
-      "FoamFile\n{{\n    version 2.0;\n    format ascii;\n    class volScalarField;\n    object {};\n}}\n\n"
-      "dimensions {};\ninternalField uniform {:.17g};\nboundaryField\n{{\n{}{}    \".*\" {{ type {}; value uniform 0; "
-      "}}\n"
-      "}}\n",
-      name, dimensions, value, inlets, sides, name == "nut" ? "calculated" : "zeroGradient");
+  return foam_file_head(name, "volScalarField") +
+         fmt::format(
+             "dimensions {};\ninternalField uniform {:.17g};\nboundaryField\n{{\n{}{}    \".*\" {{ type {}; value "
+             "uniform 0; }}\n}}\n",
+             dimensions, value, inlets, sides, name == "nut" ? "calculated" : "zeroGradient");
 }
 
 }  // namespace

@@ -8,6 +8,17 @@
 
 namespace cupola::testing {
 
+/// Adds a second kind of grain, `fine`: as the first but for its size and conductivity, in its contacts too.
+inline void add_fine_grains(Campaign& campaign, double diameter, double conductivity) {
+  Species fine = campaign.species[0];
+  fine.name = "fine";
+  fine.diameter = diameter;
+  fine.conductivity = conductivity;
+  campaign.species.push_back(fine);
+  for (const char* other : {"fine-fine", "fine-wall", "pebble-fine"})
+    campaign.contacts.pairs[other] = campaign.contacts.pairs.at("pebble-pebble");
+}
+
 /// A column of pebbles at rest, blown from below: a bed 0.2 m wide, 0.2 m deep and 1 m high, without heat loss and with
 /// hardly any conduction in the pebbles.  Tests change what they are about.
 inline Campaign column_campaign(int rows) {

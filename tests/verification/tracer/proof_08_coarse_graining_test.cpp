@@ -14,13 +14,7 @@ constexpr double solids_fraction = 0.55;
 Campaign coarse_grained(double n) {
   Campaign campaign = testing::column_campaign(10);
   campaign.species[0].conductivity = 10;
-  Species fine = campaign.species[0];
-  fine.name = "fine";
-  fine.diameter = 3e-3;
-  fine.conductivity = 40;
-  campaign.species.push_back(fine);
-  for (const char* other : {"fine-fine", "fine-wall", "pebble-fine"})
-    campaign.contacts.pairs[other] = campaign.contacts.pairs.at("pebble-pebble");
+  testing::add_fine_grains(campaign, 3e-3, 40);
   campaign.charging.layers = {{{"pebble", 10}}, {{"fine", 10}}};
   campaign.charging.rings.clear();
   for (Species& species : campaign.species) species.coarse_graining = n;

@@ -16,13 +16,7 @@ Campaign sinking_bed(double step) {
   Campaign campaign = testing::column_campaign(20);
   campaign.species[0].diameter = 20e-3;
   campaign.species[0].conductivity = 5;
-  Species fine = campaign.species[0];
-  fine.name = "fine";
-  fine.diameter = 10e-3;
-  fine.conductivity = 20;
-  campaign.species.push_back(fine);
-  for (const char* other : {"fine-fine", "fine-wall", "pebble-fine"})
-    campaign.contacts.pairs[other] = campaign.contacts.pairs.at("pebble-pebble");
+  testing::add_fine_grains(campaign, 10e-3, 20);
   campaign.species[0].coarse_graining = 2;
   campaign.species[1].coarse_graining = 4;
   campaign.charging.layers = {{{"pebble", 6}}, {{"fine", 6}}};
